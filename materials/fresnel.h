@@ -1,0 +1,93 @@
+// Reflection of polarised light off a smooth surface: closed forms, one complex root, no tangents.
+//
+// Conventions: N = n + ik with k >= 0, time factor exp(-i omega t), angle of incidence theta from
+// the normal in vacuum. Amplitudes (Verdet's sign, r_p = -r_s at normal incidence)
+//   r_s = (cos t - N cos t1) / (cos t + N cos t1),   r_p = (N cos t - cos t1) / (N cos t + cos t1),
+// and rho := conj(r_p / r_s) = tan(Psi) exp(i Delta): a bare metal has Delta = 180 degrees at
+// normal incidence, falling to 0 at grazing.
+//
+// With u = sin^2 t, q = a + ib = sqrt(N^2 - u), m = |q|^2 (Born & Wolf, Principles of Optics,
+// section 14.2; Azzam & Bashara 1977, section 4.2):
+//   R_s = (m + cos^2 - 2 a cos) / (m + cos^2 + 2 a cos)
+//   conj(rho) = (u - q cos) / (u + q cos)
+// from which everything below follows by multiplying out.
+#pragma once
+
+#include "materials/complex.h"
+
+namespace drude {
+
+// Complex refractive index n + ik of a medium against vacuum.
+template <class T>
+struct ComplexIndex {
+    T n, k;
+};
+
+// What an isotropic surface does to Stokes vectors in its own frame (S1 > 0 along s):
+//   [A B 0 0; B A 0 0; 0 0 C -S; 0 0 S C], A = (Rs + Rp)/2, B = (Rs - Rp)/2,
+//   C = sqrt(Rs Rp) cos(Delta), S = sqrt(Rs Rp) sin(Delta).
+template <class T>
+struct Reflection {
+    T Rs, Rp, C, S;
+
+    T A() const { return T(0.5) * (Rs + Rp); }
+    T B() const { return T(0.5) * (Rs - Rp); }
+};
+
+// q = a + ib = sqrt(N^2 - sin^2), the normal component of the refracted wave vector over that of
+// vacuum. re N^2 is factored, so that n close to k and n close to 1 keep their digits.
+template <class T>
+Complex<T> normal_component(const ComplexIndex<T>& index, const T& sin2_theta) {
+    return sqrt_first_quadrant(Complex<T>{
+        (index.n - index.k) * (index.n + index.k) - sin2_theta, T(2.0) * index.n * index.k});
+}
+
+// A bare surface of index n + ik (n > 0, k >= 0), cos_theta in [0, 1]. At cos_theta = 0 everything
+// is reflected: Rs = Rp = 1, Delta = 0.
+template <class T>
+Reflection<T> reflect(const ComplexIndex<T>& index, const T& cos_theta) {
+    const T u = (T(1.0) - cos_theta) * (T(1.0) + cos_theta);
+    const T cos2 = cos_theta * cos_theta;
+    const Complex<T> q = normal_component(index, u);
+    const T m = norm(q);
+    const T two_a_cos = T(2.0) * q.re * cos_theta;
+    const T Rs = (m + cos2 - two_a_cos) / (m + cos2 + two_a_cos);
+    const T D0 = u * u + m * cos2;
+    const T X = two_a_cos * u;
+    // n = 1, k = 0 at normal incidence has D0 + X > 0 still (m = 1); both vanish only where
+    // q = 0 at normal incidence, i.e. N = 0, which is outside the range.
+    const T scale = Rs / (D0 + X);
+    return {Rs, scale * (D0 - X), scale * (u * u - m * cos2),
+            scale * T(2.0) * q.im * u * cos_theta};
+}
+
+// r_s and r_p between two media of normal components q and squared indices, Verdet's sign.
+template <class T>
+struct Amplitudes {
+    Complex<T> s, p;
+};
+
+// From amplitudes: C + iS = |r_s|^2 rho = r_s conj(r_p).
+template <class T>
+Reflection<T> reflection_from_amplitudes(const Amplitudes<T>& r) {
+    const Complex<T> cross = r.s * conj(r.p);
+    return {norm(r.s), norm(r.p), cross.re, cross.im};
+}
+
+// Psi in [0, pi/2], Delta in (-pi, pi] in radians. Where nothing is reflected (Rs = Rp = 0) both
+// are meaningless; callers check has_angles().
+template <class T>
+T psi(const Reflection<T>& r) {
+    using std::atan2;
+    using std::sqrt;
+    return atan2(sqrt(r.Rp), sqrt(r.Rs));
+}
+template <class T>
+T delta(const Reflection<T>& r) {
+    using std::atan2;
+    return atan2(r.S, r.C);
+}
+// Nothing but rounding is reflected by a surface of index 1.
+inline bool has_angles(const Reflection<double>& r) { return r.Rs + r.Rp > 1e-30; }
+
+}  // namespace drude

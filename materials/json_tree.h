@@ -1,0 +1,85 @@
+// JSON as a tree that knows where each value stands in its file, so that every complaint about a
+// record can name file:line:column and the key.
+//
+// nlohmann::json does the parsing (json_tree.cpp) and stays out of this header.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+
+namespace drude {
+
+struct JsonNode {
+    enum class Kind { null, boolean, number, string, array, object };
+    Kind kind = Kind::null;
+    bool boolean = false;
+    double number = 0;
+    std::string text;               // of a string
+    std::vector<JsonNode> items;    // elements of an array, values of an object
+    std::vector<std::string> keys;  // of an object, one an item, distinct
+    std::vector<size_t> key_offsets;
+    size_t offset = 0;  // of its first byte in the text
+};
+
+struct JsonDocument {
+    std::string file;
+    std::string text;
+    JsonNode root;
+
+    // Line and column (in bytes) of an offset, from 1.
+    Place place(size_t offset) const;
+};
+
+// Throws Error (user) with file:line:column where `text` is not JSON (RFC 8259), a number does not
+// fit a double, an object has a key twice, or values nest deeper than 64.
+JsonDocument parse_json_tree(std::string text, std::string file);
+
+// A value of a document with the path that leads to it ("layers[0].n"). Reading the wrong type is
+// an Error (user) that names file:line:column, the path, what was found and what was expected.
+class JsonValue {
+  public:
+    // The root; the document must outlive the value.
+    explicit JsonValue(const JsonDocument& document)
+        : document_(&document), node_(&document.root) {}
+
+    Place place() const { return document_->place(node_->offset); }
+    // For messages: "'beta'", or "the record" for the root.
+    std::string shown() const;
+
+    std::string string() const;
+    double number() const;
+    std::vector<double> numbers() const;
+    std::vector<std::string> strings() const;
+    std::vector<JsonValue> array() const;
+
+    // Of an object. has() and at() are Errors where this is none; at() where the key is missing.
+    bool has(std::string_view key) const;
+    JsonValue at(std::string_view key) const;
+    // Throws Error (user) for a key that is not among `allowed`, with the nearest of them.
+    void allow_keys(const std::vector<std::string>& allowed) const;
+
+    // Runs `read`, adding this value's place to an Error that leaves it.
+    template <class Read>
+    auto located(Read read) const {
+        try {
+            return read();
+        } catch (const Error& error) {
+            throw Error(error.cause(), place(), shown() + ": " + error.message());
+        }
+    }
+
+  private:
+    JsonValue(const JsonDocument& document, const JsonNode& node, std::string path)
+        : document_(&document), node_(&node), path_(std::move(path)) {}
+    void expect(JsonNode::Kind kind) const;
+    std::string child_path(std::string_view key) const;
+
+    const JsonDocument* document_;
+    const JsonNode* node_;
+    std::string path_;
+};
+
+}  // namespace drude

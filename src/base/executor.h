@@ -1,0 +1,21 @@
+// The one executor behind every parallel loop.
+//
+// TBB in production; std::jthread where DRUDE_JTHREAD_EXECUTOR is defined (the ThreadSanitizer
+// preset), since TBB's synchronisation is invisible to that tool. The result of a loop must not
+// depend on the order or the thread in which its indices run.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace drude {
+
+// Hardware threads this process may use, at least 1.
+int available_threads();
+
+// Runs body(i) for i in [0, count), on `threads` threads (0: all available). Indices are handed
+// out singly in ascending order, so a body should be worth a microsecond at least. The first
+// exception thrown by a body ends the loop and is rethrown here.
+void parallel_for(size_t count, int threads, const std::function<void(size_t)>& body);
+
+}  // namespace drude

@@ -1,0 +1,48 @@
+// Files: read whole, written whole or not at all.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace drude {
+
+// The file's bytes, decompressed where it is gzip (by content, not by name). Throws Error (user)
+// where the file is missing, a directory, unreadable or larger than `limit_bytes` once unpacked.
+std::string read_file(const std::string& path, uint64_t limit_bytes = uint64_t{1} << 31);
+
+// A file that appears under its name only when it is complete: everything is written beside it
+// under a temporary name, synced, then renamed over the target. Leaving the scope without commit()
+// removes the temporary file and leaves an older target as it was.
+class AtomicFile {
+  public:
+    // Creates the temporary file. Throws Error (outside) where the folder cannot be written.
+    explicit AtomicFile(std::string path);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    // Appends; throws Error (outside) where the disk says no.
+    void write(std::string_view bytes);
+
+    // For libraries that write by name: they may truncate and fill this file. It has the target's
+    // extension.
+    const std::string& temporary_path() const { return temporary_path_; }
+
+    // Syncs, renames over the target and syncs the folder; throws Error (outside) on failure.
+    void commit();
+
+  private:
+    std::string path_;
+    std::string temporary_path_;
+    int descriptor_ = -1;
+    bool committed_ = false;
+};
+
+// AtomicFile in one call.
+void write_file(const std::string& path, std::string_view bytes);
+
+// Creates the folder and its parents where missing; throws Error (outside).
+void make_folder(const std::string& path);
+
+}  // namespace drude

@@ -1,0 +1,12 @@
+// SIGINT and SIGTERM as a flag that long loops look at, so that what is finished can be saved.
+#pragma once
+
+namespace drude {
+
+// Installs the handlers; a second signal of the same kind ends the process at once.
+void catch_interrupts();
+
+// The signal that arrived (SIGINT, SIGTERM), or 0.
+int interrupted();
+
+}  // namespace drude

@@ -1,0 +1,64 @@
+#include "base/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace drude {
+
+using Clock = std::chrono::steady_clock;
+
+std::string format_duration(double seconds) {
+    const long long whole = std::llround(seconds);
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+    return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+Progress::Progress(std::string title, size_t total, bool quiet)
+    : title_(std::move(title)),
+      total_(total),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      start_(Clock::now()),
+      printed_(start_) {}
+
+Progress::~Progress() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    // Off a terminal a short job has printed nothing and need not start now.
+    if (!quiet_ && (terminal_ || printed_ != start_)) print(true);
+}
+
+void Progress::step(size_t count) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    done_ += count;
+    if (quiet_) return;
+    const auto period = terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(5000);
+    const Clock::time_point now = Clock::now();
+    if (now - printed_ < period) return;
+    printed_ = now;
+    print(false);
+}
+
+void Progress::print(bool last) {
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double fraction =
+        total_ > 0 ? static_cast<double>(done_) / static_cast<double>(total_) : 1;
+    const std::string left =
+        done_ >= total_ || done_ == 0
+            ? fmt::format("{} taken", format_duration(elapsed))
+            : fmt::format("{} left", format_duration(elapsed * (1 - fraction) / fraction));
+    if (terminal_) {
+        constexpr int width = 30;
+        const int filled = static_cast<int>(fraction * width);
+        fmt::print(stderr, "\r{} [{:=<{}}{: <{}}] {:3.0f} % {}\033[K{}", title_, "", filled, "",
+                   width - filled, 100 * fraction, left, last ? "\n" : "");
+    } else {
+        fmt::print(stderr, "{}: {:.0f} %, {}\n", title_, 100 * fraction, left);
+    }
+    std::fflush(stderr);
+}
+
+}  // namespace drude

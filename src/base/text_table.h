@@ -1,0 +1,42 @@
+// Text tables: "# key: value" lines, a line of column names, rows of numbers, separated by commas.
+// The shape of every text file that the project itself defines.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+
+namespace drude {
+
+// One row of a text table with the line it stood on. Empty fields are NaN only where the column is
+// optional; reading rejects NaN, infinities and missing fields otherwise.
+struct TableRow {
+    std::vector<double> values;
+    int line = 0;
+};
+
+struct TextTable {
+    std::string file;
+    std::vector<std::pair<std::string, std::string>> header;  // in the file's order
+    std::vector<std::string> columns;
+    std::vector<TableRow> rows;
+
+    // The value of a header key, or an empty string.
+    std::string header_value(std::string_view key) const;
+    // The index of a column, or -1.
+    int column(std::string_view name) const;
+    Place place(const TableRow& row) const { return {file, row.line, 0}; }
+};
+
+// Parses `text`; `file` names it in errors. Accepts LF and CRLF, a UTF-8 byte order mark, blank
+// lines. Throws Error (user) with file:line:column for a row of the wrong length, a field that is
+// no number, NaN or an infinity, or a table without column names.
+TextTable parse_text_table(const std::string& text, const std::string& file);
+
+// read_file and parse_text_table.
+TextTable read_text_table(const std::string& path);
+
+}  // namespace drude

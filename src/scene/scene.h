@@ -1,0 +1,136 @@
+// A scene as the renderer takes it: plain data, no syntax left, every name resolved.
+//
+// World space is pbrt's (left-handed for an ordinary scene). Matrices act on column vectors.
+// Spectra lie on the project's 1 nm grid. What a pbrt-v4 file leaves out has pbrt-v4's default here.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/error.h"
+#include "materials/material.h"
+#include "materials/spectrum.h"
+
+namespace drude {
+
+// ---- shapes ------------------------------------------------------------------------------------
+
+struct Sphere {
+    double radius = 1;
+    double z_min = -1, z_max = 1;  // object space, clamped to [-radius, radius]
+    double phi_max_deg = 360;
+};
+
+struct TriangleMesh {
+    std::vector<glm::vec3> positions;   // object space
+    std::vector<glm::vec3> normals;     // one a position, or none
+    std::vector<glm::vec2> uv;          // one a position, or none
+    std::vector<glm::uvec3> triangles;  // indices of positions
+};
+
+struct Shape {
+    std::variant<Sphere, TriangleMesh> geometry;
+    glm::dmat4 world_from_object{1};
+    bool reverse_orientation = false;
+    int material = -1;    // index of Scene::materials; -1: an invisible "interface"
+    int area_light = -1;  // index of Scene::area_lights; -1: emits nothing
+    Place place;
+};
+
+// ---- materials ---------------------------------------------------------------------------------
+
+struct ConductorMaterial {
+    // Substrate, films, lobe, masking and beta. Where the scene gives pbrt's roughness the lobe is
+    // Trowbridge-Reitz with Smith masking and `alpha` holds pbrt's alpha, which beta cannot always
+    // express; alpha < 0 means "use surface.beta".
+    Material surface;
+    double alpha = -1;
+    // Instead of a metal: pbrt's "reflectance", a Fresnel-free, unpolarised reflectance with no
+    // phase (R = reflectance for s and p, C = R, S = 0).
+    std::optional<DenseSpectrum> reflectance;
+};
+
+struct DiffuseMaterial {
+    DenseSpectrum reflectance;  // in [0, 1]; a perfect depolariser
+};
+
+using SurfaceMaterial = std::variant<ConductorMaterial, DiffuseMaterial>;
+
+// ---- lights ------------------------------------------------------------------------------------
+
+// Radiance that a lat-long (width = 2 height) or equal-area octahedral (square) image gives, or a
+// constant.
+struct InfiniteLight {
+    glm::dmat4 world_from_light{1};
+    std::string image;       // resolved path; empty: constant
+    DenseSpectrum radiance;  // of a constant light, scale included
+    double scale = 1;        // of an image
+    Place place;
+};
+
+struct DistantLight {
+    DenseSpectrum irradiance;  // normal irradiance, scale included
+    glm::dvec3 direction;      // in which its light travels, world space, unit
+    Place place;
+};
+
+struct AreaLight {
+    DenseSpectrum radiance;  // scale included
+    bool two_sided = false;
+    Place place;
+};
+
+// ---- camera, film, sampling --------------------------------------------------------------------
+
+struct Camera {
+    glm::dmat4 world_from_camera{1};  // camera looks along +z, x right, y up
+    double fov_deg = 90;              // of the shorter side of the picture
+    // screen window as pbrt has it: x0, x1, y0, y1 on the plane z = 1 / tan(fov/2)
+    double screen_window[4] = {-1, 1, -1, 1};
+};
+
+struct Film {
+    int width = 1280, height = 720;
+    std::string filename;  // as the scene names it; empty where it does not
+};
+
+enum class FilterKind { box, gaussian, triangle, mitchell };
+struct Filter {
+    FilterKind kind = FilterKind::gaussian;
+    double radius_x = 1.5, radius_y = 1.5;
+    double sigma = 0.5;             // gaussian
+    double b = 1.0 / 3, c = 1.0 / 3;  // mitchell
+};
+
+struct Scene {
+    std::string file;
+    std::string sha256;  // of the scene's text with everything it includes and refers to by content
+    Camera camera;
+    Film film;
+    Filter filter;
+    int samples_per_pixel = 16;
+    uint64_t seed = 0;
+    int max_depth = 5;  // reflections of a path at most
+    std::vector<SurfaceMaterial> materials;
+    std::vector<Shape> shapes;
+    std::vector<AreaLight> area_lights;
+    std::vector<InfiniteLight> infinite_lights;
+    std::vector<DistantLight> distant_lights;
+    std::vector<std::string> warnings;  // for people: substitutions, ranges held, names resolved
+    // Those of the warnings that say: pbrt-v4 would have drawn something else here.
+    std::vector<std::string> stand_ins;
+};
+
+// Reads a pbrt-v4 scene file. Errors (user) carry file:line:column and the nearest valid word.
+Scene read_scene(const std::string& path);
+// The same from text; `file` names it in errors and is what relative paths are relative to.
+Scene parse_scene(const std::string& text, const std::string& file);
+
+}  // namespace drude
