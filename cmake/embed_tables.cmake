@@ -1,25 +1,26 @@
-# Writes ${OUTPUT}: every .csv of ${FOLDER} as a raw string under its name without extension.
+# Writes ${OUTPUT}, which defines ${FUNCTION}(): every .${EXTENSION} of ${FOLDER} as a raw string
+# under its name without extension.
 #
 # The contents never pass through a CMake list, where semicolons and brackets would be taken apart:
 # each file is one quoted argument, appended to the output as it is read.
-file(GLOB names RELATIVE "${FOLDER}" "${FOLDER}/*.csv")
+file(GLOB names RELATIVE "${FOLDER}" "${FOLDER}/*.${EXTENSION}")
 list(LENGTH names count)
 if(count EQUAL 0)
-  message(FATAL_ERROR "${FOLDER}: found no .csv, expected the tables of published data")
+  message(FATAL_ERROR "${FOLDER}: found no .${EXTENSION} to compile in")
 endif()
 list(SORT names)
 
-# The output appears under its name only when it is complete, so that an interrupted build starts over.
+# The output appears under its name only when it is complete, so that an interrupted build starts
+# over.
 set(part "${OUTPUT}.part")
-file(WRITE "${part}" [=[
-// Made from materials/tables by cmake/embed_tables.cmake.
-#include "materials/embedded_tables.h"
+file(WRITE "${part}" "// Made by cmake/embed_tables.cmake.
+#include \"materials/embedded_tables.h\"
 
 namespace drude {
 
-const std::vector<EmbeddedTable>& embedded_tables() {
+const std::vector<EmbeddedTable>& ${FUNCTION}() {
     static const std::vector<EmbeddedTable> tables = {
-]=])
+")
 foreach(file IN LISTS names)
   get_filename_component(name "${file}" NAME_WLE)
   file(READ "${FOLDER}/${file}" content)

@@ -37,15 +37,16 @@ Complex<T> conj(const Complex<T>& a) {
 }
 
 // The square root in the first quadrant of a number with im >= 0: the larger of its parts from
-// (|a| + |re a|)/2, the other by division, so that nothing cancels. 0 for 0.
+// (|a| + |re a|)/2, the other by division, so that nothing cancels. The 1e-36
+// keeps derivatives finite at 0, whose root comes out as 7e-10.
 template <class T>
 Complex<T> sqrt_first_quadrant(const Complex<T>& a) {
     using std::sqrt;
-    const T zero(0.0), half(0.5), tiny(1e-30);
+    const T zero(0.0), half(0.5);
     const T magnitude = sqrt(norm(a) + T(1e-36));
     const T size = select(a.re < zero, -a.re, a.re);
     const T larger = sqrt(half * (magnitude + size));
-    const T smaller = half * a.im / select(larger > tiny, larger, T(1.0));
+    const T smaller = half * a.im / larger;
     return {select(a.re < zero, smaller, larger), select(a.re < zero, larger, smaller)};
 }
 

@@ -1,4 +1,4 @@
-// The text of every table under materials/tables, compiled into the program.
+// Text files compiled into the program, so that it needs no data folder.
 #pragma once
 
 #include <string_view>
@@ -11,6 +11,9 @@ struct EmbeddedTable {
     std::string_view text;
 };
 
+// materials/tables/*.csv
 const std::vector<EmbeddedTable>& embedded_tables();
+// scenes/*.pbrt; linked with the renderer.
+const std::vector<EmbeddedTable>& embedded_scenes();
 
 }  // namespace drude

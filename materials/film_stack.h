@@ -11,7 +11,7 @@
 namespace drude {
 
 template <class T>
-struct Film {
+struct ThinFilm {
     ComplexIndex<T> index;
     T thickness;  // in the unit of the wavelength, >= 0
 };
@@ -35,7 +35,7 @@ Amplitudes<T> interface_amplitudes(const Complex<T>& q1, const Complex<T>& eps1,
 // `films[0]` is the outermost of `count` films; light comes from vacuum at cos_theta in (0, 1].
 // `wavelength` is the vacuum wavelength, > 0. count = 0 is the bare substrate.
 template <class T>
-Reflection<T> reflect(const Film<T>* films, int count, const ComplexIndex<T>& substrate,
+Reflection<T> reflect(const ThinFilm<T>* films, int count, const ComplexIndex<T>& substrate,
                       const T& cos_theta, const T& wavelength) {
     using std::exp;
     if (count == 0) return reflect(substrate, cos_theta);
@@ -52,7 +52,7 @@ Reflection<T> reflect(const Film<T>* films, int count, const ComplexIndex<T>& su
         if (j == count - 1) {
             r = step;
         } else {
-            const Film<T>& above = films[j + 1];
+            const ThinFilm<T>& above = films[j + 1];
             const T turns = T(2.0) * above.thickness / wavelength;
             T sine, cosine;
             sincos_turns(turns * q_below.re, &sine, &cosine);

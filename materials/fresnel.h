@@ -38,8 +38,8 @@ struct Reflection {
 // vacuum. re N^2 is factored, so that n close to k and n close to 1 keep their digits.
 template <class T>
 Complex<T> normal_component(const ComplexIndex<T>& index, const T& sin2_theta) {
-    return sqrt_first_quadrant(Complex<T>{
-        (index.n - index.k) * (index.n + index.k) - sin2_theta, T(2.0) * index.n * index.k});
+    return sqrt_first_quadrant(Complex<T>{(index.n - index.k) * (index.n + index.k) - sin2_theta,
+                                          T(2.0) * index.n * index.k});
 }
 
 // A bare surface of index n + ik (n > 0, k >= 0), cos_theta in [0, 1]. At cos_theta = 0 everything
@@ -47,18 +47,19 @@ Complex<T> normal_component(const ComplexIndex<T>& index, const T& sin2_theta) {
 template <class T>
 Reflection<T> reflect(const ComplexIndex<T>& index, const T& cos_theta) {
     const T u = (T(1.0) - cos_theta) * (T(1.0) + cos_theta);
-    const T cos2 = cos_theta * cos_theta;
     const Complex<T> q = normal_component(index, u);
-    const T m = norm(q);
-    const T two_a_cos = T(2.0) * q.re * cos_theta;
-    const T Rs = (m + cos2 - two_a_cos) / (m + cos2 + two_a_cos);
-    const T D0 = u * u + m * cos2;
-    const T X = two_a_cos * u;
-    // n = 1, k = 0 at normal incidence has D0 + X > 0 still (m = 1); both vanish only where
-    // q = 0 at normal incidence, i.e. N = 0, which is outside the range.
-    const T scale = Rs / (D0 + X);
-    return {Rs, scale * (D0 - X), scale * (u * u - m * cos2),
-            scale * T(2.0) * q.im * u * cos_theta};
+    const T b2 = q.im * q.im;
+    // The squares |cos -+ q|^2 and |u -+ q cos|^2 as sums, so that rounding makes neither
+    // reflectance negative where it nearly vanishes (n close to 1, Brewster's angle).
+    const T s_minus = q.re - cos_theta, s_plus = q.re + cos_theta;
+    const T Rs = (s_minus * s_minus + b2) / (s_plus * s_plus + b2);
+    const T a_cos = q.re * cos_theta, b_cos = q.im * cos_theta;
+    const T p_minus = u - a_cos, p_plus = u + a_cos;
+    // The denominator vanishes only where q = 0 at normal incidence, i.e. N = 0, which is outside
+    // the range.
+    const T scale = Rs / (p_plus * p_plus + b_cos * b_cos);
+    return {Rs, scale * (p_minus * p_minus + b_cos * b_cos),
+            scale * (u * u - (a_cos * a_cos + b_cos * b_cos)), scale * T(2.0) * b_cos * u};
 }
 
 // r_s and r_p between two media of normal components q and squared indices, Verdet's sign.
@@ -88,6 +89,8 @@ T delta(const Reflection<T>& r) {
     return atan2(r.S, r.C);
 }
 // Nothing but rounding is reflected by a surface of index 1.
-inline bool has_angles(const Reflection<double>& r) { return r.Rs + r.Rp > 1e-30; }
+inline bool has_angles(const Reflection<double>& r) {
+    return r.Rs + r.Rp > 1e-30;
+}
 
 }  // namespace drude

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "base/numbers.h"
 
@@ -14,6 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr size_t deepest_nesting = 64;
+constexpr int number_overflow = 406;  // of nlohmann's out_of_range
 constexpr std::string_view white = " \t\r\n";
 
 std::string_view kind_name(JsonNode::Kind kind) {
@@ -37,7 +39,7 @@ std::string_view kind_name(JsonNode::Kind kind) {
 // What was found, short, and free of bytes that a terminal or another JSON writer chokes on.
 std::string printable(std::string_view found) {
     std::string shown;
-    for (const char c : found.substr(0, 40)) shown += c < 32 || c == 127 ? '?' : c;
+    for (const char c : found.substr(0, 40)) shown += c < 32 || c > 126 ? '?' : c;
     return found.size() > 40 ? shown + "..." : shown;
 }
 
@@ -85,7 +87,7 @@ class TreeBuilder {
     bool null() { return add(leaf(JsonNode::Kind::null)); }
     bool boolean(bool value) {
         JsonNode node = leaf(JsonNode::Kind::boolean);
-        node.boolean = value;
+        node.number = value ? 1 : 0;
         return add(std::move(node));
     }
     bool number_integer(int64_t value) { return add_number(static_cast<double>(value)); }
@@ -99,17 +101,13 @@ class TreeBuilder {
     bool binary(json::binary_t&) { return false; }  // not in text
     bool start_object(size_t) { return open(JsonNode::Kind::object); }
     bool start_array(size_t) { return open(JsonNode::Kind::array); }
-    bool end_object() { return close(); }
+    bool end_object() {
+        check_distinct(open_.back().keys);
+        return close();
+    }
     bool end_array() { return close(); }
     bool key(std::string& name) {
-        JsonNode& object = open_.back();
-        const size_t offset = next_token();
-        if (std::find(object.keys.begin(), object.keys.end(), name) != object.keys.end()) {
-            user_error_at(document_.place(offset), "key '{}' stands here a second time; remove one",
-                          printable(name));
-        }
-        object.keys.push_back(std::move(name));
-        object.key_offsets.push_back(offset);
+        open_.back().keys.push_back({std::move(name), next_token()});
         mark();
         return true;
     }
@@ -118,10 +116,8 @@ class TreeBuilder {
         const size_t last = std::min(bytes_read == 0 ? 0 : bytes_read - 1, text.size());
         const size_t start = std::min(next_token(), last);
         const Place place = document_.place(start);
-        std::string found;
-        for (const char c : text.substr(start, last + 1 - start)) found += c < 0 ? '?' : c;
-        found = printable(found);
-        if (exception.id == json::out_of_range::create(406, "", nullptr).id) {
+        const std::string found = printable(std::string_view(text).substr(start, last + 1 - start));
+        if (exception.id == number_overflow) {
             user_error_at(place, "found {}, which is too large for a number in double precision",
                           found);
         }
@@ -182,6 +178,21 @@ class TreeBuilder {
         JsonNode node = std::move(open_.back());
         open_.pop_back();
         return add(std::move(node));
+    }
+
+    void check_distinct(const std::vector<JsonKey>& keys) const {
+        std::vector<const JsonKey*> sorted;
+        for (const JsonKey& key : keys) sorted.push_back(&key);
+        std::sort(sorted.begin(), sorted.end(), [](const JsonKey* a, const JsonKey* b) {
+            return std::tie(a->name, a->offset) < std::tie(b->name, b->offset);
+        });
+        const auto twice = std::adjacent_find(
+            sorted.begin(), sorted.end(),
+            [](const JsonKey* a, const JsonKey* b) { return a->name == b->name; });
+        if (twice == sorted.end()) return;
+        const JsonKey& second = **std::next(twice);
+        user_error_at(document_.place(second.offset),
+                      "the key '{}' stands here a second time; remove one", printable(second.name));
     }
 
     // What the grammar wants at `start`, from the last character before it.
@@ -278,29 +289,33 @@ std::vector<std::string> JsonValue::strings() const {
     return strings;
 }
 
-bool JsonValue::has(std::string_view key) const {
+size_t JsonValue::member(std::string_view key) const {
     expect(JsonNode::Kind::object);
-    return std::find(node_->keys.begin(), node_->keys.end(), key) != node_->keys.end();
+    const std::vector<JsonKey>& keys = node_->keys;
+    const auto found = std::find_if(
+        keys.begin(), keys.end(), [&](const JsonKey& candidate) { return candidate.name == key; });
+    return static_cast<size_t>(found - keys.begin());
+}
+
+bool JsonValue::has(std::string_view key) const {
+    return member(key) < node_->keys.size();
 }
 
 JsonValue JsonValue::at(std::string_view key) const {
-    expect(JsonNode::Kind::object);
-    const auto found = std::find(node_->keys.begin(), node_->keys.end(), key);
-    if (found == node_->keys.end()) {
+    const size_t i = member(key);
+    if (i == node_->keys.size()) {
         user_error_at(place(), "{} has no key '{}', which it must have", shown(), key);
     }
-    const size_t i = static_cast<size_t>(found - node_->keys.begin());
     return JsonValue(*document_, node_->items[i], child_path(key));
 }
 
 void JsonValue::allow_keys(const std::vector<std::string>& allowed) const {
     expect(JsonNode::Kind::object);
-    for (size_t i = 0; i < node_->keys.size(); ++i) {
-        const std::string& key = node_->keys[i];
+    for (const auto& [key, offset] : node_->keys) {
         if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
-        user_error_at(document_->place(node_->key_offsets[i]),
-                      "{} has an unknown key '{}'{}; expected one of {}", shown(), printable(key),
-                      did_you_mean(key, allowed), fmt::join(allowed, ", "));
+        user_error_at(document_->place(offset), "{} has an unknown key '{}'{}; expected one of {}",
+                      shown(), printable(key), did_you_mean(key, allowed),
+                      fmt::join(allowed, ", "));
     }
 }
 

@@ -12,16 +12,19 @@
 
 namespace drude {
 
+struct JsonKey {
+    std::string name;
+    size_t offset = 0;
+};
+
 struct JsonNode {
     enum class Kind { null, boolean, number, string, array, object };
     Kind kind = Kind::null;
-    bool boolean = false;
-    double number = 0;
-    std::string text;               // of a string
-    std::vector<JsonNode> items;    // elements of an array, values of an object
-    std::vector<std::string> keys;  // of an object, one an item, distinct
-    std::vector<size_t> key_offsets;
-    size_t offset = 0;  // of its first byte in the text
+    double number = 0;            // 1 for true
+    size_t offset = 0;            // of its first byte in the text
+    std::string text;             // of a string
+    std::vector<JsonNode> items;  // elements of an array, values of an object
+    std::vector<JsonKey> keys;    // of an object, one an item, distinct
 };
 
 struct JsonDocument {
@@ -75,6 +78,8 @@ class JsonValue {
     JsonValue(const JsonDocument& document, const JsonNode& node, std::string path)
         : document_(&document), node_(&node), path_(std::move(path)) {}
     void expect(JsonNode::Kind kind) const;
+    // The index of a member, or the number of members where there is none of that name.
+    size_t member(std::string_view key) const;
     std::string child_path(std::string_view key) const;
 
     const JsonDocument* document_;

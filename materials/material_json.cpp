@@ -14,8 +14,9 @@ namespace drude {
 namespace {
 
 constexpr std::string_view format_name = "drude-material/1";
-// A record is a few hundred rows; this only keeps a file given by mistake out of memory.
-constexpr uint64_t largest_record = uint64_t{1} << 28;
+// A record has a few hundred rows, some 100 bytes each; this keeps a file given by mistake out of
+// memory, where its tree may be fifty times as large.
+constexpr uint64_t largest_record = uint64_t{1} << 23;
 
 // ---- writing
 // -------------------------------------------------------------------------------------

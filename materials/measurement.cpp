@@ -28,22 +28,19 @@ void check_columns(const TextTable& table) {
             "Psi and Delta with the columns {}",
             table.file, fmt::join(column_names(), ","));
     }
-    for (size_t i = 0; i < table.columns.size(); ++i) {
-        const std::string& name = table.columns[i];
+    for (const std::string& name : table.columns) {
         const auto& known = column_names();
         if (std::find(known.begin(), known.end(), name) == known.end()) {
             user_error("{}: found the column '{}'{}, expected {}", table.file, name,
                        did_you_mean(name, known), fmt::join(known, ","));
         }
-        if (table.column(name) != static_cast<int>(i)) {
-            user_error("{}: found the column '{}' twice", table.file, name);
-        }
     }
     for (size_t i = 0; i < required_columns; ++i) {
         if (table.column(column_names()[i]) < 0) {
-            user_error("{}: found no column '{}', expected wavelength_nm,angle_deg,psi_deg,"
-                       "delta_deg[,sigma_psi_deg,sigma_delta_deg[,depolarization]]",
-                       table.file, column_names()[i]);
+            user_error(
+                "{}: found no column '{}', expected wavelength_nm,angle_deg,psi_deg,"
+                "delta_deg[,sigma_psi_deg,sigma_delta_deg[,depolarization]]",
+                table.file, column_names()[i]);
         }
     }
     if ((table.column("sigma_psi_deg") < 0) != (table.column("sigma_delta_deg") < 0)) {
@@ -189,9 +186,9 @@ std::string format_measurement(const Measurement& measurement) {
     for (const auto& [key, value] : measurement.header) {
         // A line break inside a value would turn the rest of it into a row of data.
         std::string line = key + ": " + value;
-        std::replace_if(line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; },
-                        ' ');
-        text += "# " + line + "\n";
+        std::replace_if(
+            line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+        text += fmt::format("# {}\n", line);
     }
     text += "wavelength_nm,angle_deg,psi_deg,delta_deg";
     if (sigma || depolarization) text += ",sigma_psi_deg,sigma_delta_deg";
@@ -205,7 +202,7 @@ std::string format_measurement(const Measurement& measurement) {
             text += fmt::format(",{},{}", format_double(row.sigma_psi_deg),
                                 format_double(row.sigma_delta_deg));
         }
-        if (depolarization) text += "," + format_double(row.depolarization);
+        if (depolarization) text += fmt::format(",{}", format_double(row.depolarization));
         text += "\n";
     }
     return text;

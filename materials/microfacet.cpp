@@ -36,9 +36,9 @@ GaussianAngles::GaussianAngles(double g) : g_(g) {
     for (int i = 0; i < cells; ++i) {
         const double middle = (i + 0.5) * step_, offset = step_ * 0.5 * std::sqrt(0.6);
         cumulative_[i + 1] =
-            cumulative_[i] + step_ / 18 *
-                                 (5 * density(middle - offset) + 8 * density(middle) +
-                                  5 * density(middle + offset));
+            cumulative_[i] +
+            step_ / 18 *
+                (5 * density(middle - offset) + 8 * density(middle) + 5 * density(middle + offset));
     }
 }
 
@@ -48,13 +48,18 @@ double GaussianAngles::tangent(double u) const {
     const auto cell = std::clamp<long>(above - cumulative_.begin() - 1, 0, cells - 1);
     const double begin = static_cast<double>(cell) * step_;
     const double rest = target - cumulative_[cell];
-    // Newton on the cell's own integral (3-point Gauss-Legendre), kept inside the cell.
-    double size = step_ * rest / (cumulative_[cell + 1] - cumulative_[cell]);
+    // Newton on the cell's own integral (3-point Gauss-Legendre), kept inside the cell, from the
+    // answer for a density that is linear there: in the first cell, and in the last of a wide
+    // lobe, the density falls to 0 and a linear start would not converge.
+    const double share = rest / (cumulative_[cell + 1] - cumulative_[cell]);
+    const double d0 = density(begin), d1 = density(begin + step_);
+    const double root = std::sqrt(std::max(0.0, d0 * d0 + share * (d1 * d1 - d0 * d0)));
+    double size = d0 + root > 0 ? step_ * share * (d0 + d1) / (d0 + root) : 0;
     for (int i = 0; i < 3; ++i) {
         const double middle = begin + size / 2, offset = size * 0.5 * std::sqrt(0.6);
-        const double integral = size / 18 *
-                                (5 * density(middle - offset) + 8 * density(middle) +
-                                 5 * density(middle + offset));
+        const double integral =
+            size / 18 *
+            (5 * density(middle - offset) + 8 * density(middle) + 5 * density(middle + offset));
         const double slope = density(begin + size);
         if (!(slope > 0)) break;
         size = std::clamp(size - (integral - rest) / slope, 0.0, step_);

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <vector>
 
 #include "base/error.h"
@@ -35,7 +36,8 @@ inline constexpr double mirror_below_beta = 1e-5;
 // The widest that is modelled; single scattering loses most of the light long before.
 inline constexpr double largest_beta = 1.2;
 
-// ---- beta and the shapes' own parameters ---------------------------------------------------------
+// ---- beta and the shapes' own parameters
+// ---------------------------------------------------------
 
 // Blinn-Phong's exponent of cos: -ln 2 / ln cos(beta), without the cancellation in cos.
 template <class T>
@@ -63,7 +65,8 @@ inline double trowbridge_reitz_beta(double alpha) {
     return s2 >= 0 && s2 < 1 ? std::asin(std::sqrt(s2)) : -1;
 }
 
-// ---- density -------------------------------------------------------------------------------------
+// ---- density
+// -------------------------------------------------------------------------------------
 
 // D of one lobe; T may be double, float or ceres::Jet.
 template <class T>
@@ -104,7 +107,8 @@ class LobeDensity {
     // Trowbridge-Reitz: c^2.
     const T& width() const { return width_; }
 
-    // D where tan^2 of the facet's angle is `tan2` >= 0 (infinite at 90 degrees gives 0).
+    // D where tan^2 of the facet's angle is `tan2` >= 0; infinity, i.e. 90 degrees, gives D's limit
+    // there (0 for Blinn-Phong and Beckmann).
     T operator()(const T& tan2) const {
         using std::atan;
         using std::exp;
@@ -114,18 +118,22 @@ class LobeDensity {
             case Lobe::blinn_phong:
                 return scale_ * exp(T(-0.5) * width_ * log1p(tan2));
             case Lobe::gaussian: {
+                // A Jet's square root has no derivative at 0, where D has one.
+                if (!(tan2 > T(0.0))) return scale_;
                 const T x = width_ * atan(sqrt(tan2));
                 return scale_ * exp(-x * x);
             }
             case Lobe::beckmann: {
+                if (!(tan2 < T(1e18))) return T(0.0);  // 0, and not 0 times infinity
                 const T sec2 = T(1.0) + tan2;
                 return scale_ * exp(-tan2 / width_) * sec2 * sec2;
             }
             case Lobe::trowbridge_reitz:
                 break;
         }
-        // c^2 / (cos^2 (c^2 - 1) + 1) with cos^2 = 1/(1 + tan^2) multiplied out.
-        const T f = width_ * (T(1.0) + tan2) / (width_ + tan2);
+        // c^2 / (cos^2 (c^2 - 1) + 1) with cos^2 = 1/(1 + tan^2) multiplied out, in a form that
+        // holds for an infinite tangent.
+        const T f = width_ * (T(1.0) + (T(1.0) - width_) / (width_ + tan2));
         return scale_ * f * f;
     }
 
@@ -162,7 +170,8 @@ class LobeDensity {
     T width_{}, scale_{};
 };
 
-// ---- the distribution ----------------------------------------------------------------------------
+// ---- the distribution
+// ----------------------------------------------------------------------------
 
 namespace microfacet_detail {
 
@@ -239,7 +248,7 @@ class Microfacets {
         if (masking_ == Masking::v_groove) {
             return std::min(T(1), 2 * m.z * std::min(o.z / om, i.z / im));
         }
-        return 1 / (1 + smith_lambda(o) + smith_lambda(i));
+        return 1 / (1 + (smith_lambda(o) + smith_lambda(i)));
     }
 
     // The density of m, per solid angle of m, with which sample_visible() chooses it.
@@ -265,7 +274,11 @@ class Microfacets {
     Evaluation evaluate(const Vec3<T>& o, const Vec3<T>& i) const {
         Evaluation e;
         if (mirror_ || !(o.z > 0) || !(i.z > 0)) return e;
-        e.m = glm::normalize(o + i);
+        const Vec3<T> sum = o + i;
+        const T size2 = glm::dot(sum, sum);
+        // Opposite directions along the horizon have no half vector.
+        if (!(size2 > std::numeric_limits<T>::min())) return e;
+        e.m = sum / std::sqrt(size2);
         const T d = D(e.m);
         e.value = d * G2(o, i, e.m) / (4 * o.z);
         e.pdf = d * G1(o, e.m) / (4 * o.z);
@@ -277,15 +290,22 @@ class Microfacets {
         T weight = 0;  // value / pdf; 0: the light is lost between the facets
         T pdf = 0;
     };
+    // A mirror reflects all, with the pdf 0 that evaluate() gives too.
     Sample sample(const Vec3<T>& o, T u1, T u2, T u3) const {
         Sample s;
         if (!(o.z > 0)) return s;
+        if (mirror_) {
+            s.i = {-o.x, -o.y, o.z};
+            s.weight = 1;
+            return s;
+        }
         s.m = sample_visible(o, u1, u2, u3);
         const T om = glm::dot(o, s.m);
         if (!(om > 0)) return s;
         s.i = 2 * om * s.m - o;
         if (!(s.i.z > 0)) return s;
         const T g1 = G1(o, s.m);
+        if (!(g1 > 0)) return s;  // so close to grazing that it underflows
         s.weight = G2(o, s.i, s.m) / g1;
         s.pdf = D(s.m) * g1 / (4 * o.z);
         return s;
@@ -293,8 +313,7 @@ class Microfacets {
 
   private:
     static void check_masking(Lobe lobe, Masking masking) {
-        if (masking == Masking::smith && lobe != Lobe::beckmann &&
-            lobe != Lobe::trowbridge_reitz) {
+        if (masking == Masking::smith && lobe != Lobe::beckmann && lobe != Lobe::trowbridge_reitz) {
             user_error("smith masking is known for beckmann and trowbridge-reitz only, not for {}",
                        lobe_name(lobe));
         }
@@ -353,10 +372,12 @@ class Microfacets {
         const T alpha = std::sqrt(density_.width());
         const Vec3<T> w = glm::normalize(Vec3<T>(alpha * o.x, alpha * o.y, o.z));
         const T phi = T(2 * pi) * u1;
-        const T z = (1 - u2) * (1 + w.z) - w.z;
-        const T r = std::sqrt(std::max(T(0), 1 - z * z));
-        const Vec3<T> h = Vec3<T>(r * std::cos(phi), r * std::sin(phi), z) + w;
-        return glm::normalize(Vec3<T>(alpha * h.x, alpha * h.y, std::max(T(0), h.z)));
+        // A point of the cap has z = h_z - w.z and r^2 = 1 - z^2; both are multiplied out, because
+        // in float their differences would blur the lobe's long tail.
+        const T h_z = (1 - u2) * (1 + w.z);
+        const T r = std::sqrt(u2 * (1 + w.z) * std::max(T(0), 1 - w.z + h_z));
+        return glm::normalize(
+            Vec3<T>(alpha * (r * std::cos(phi) + w.x), alpha * (r * std::sin(phi) + w.y), h_z));
     }
 
     // Heitz & d'Eon 2014, section 5: stretch to unit roughness, sample the slope along o, then

@@ -26,8 +26,7 @@ Hermitian coherency(const Mueller<double>& matrix) {
         for (int b = 0; b < 4; ++b) {
             for (int row = 0; row < order; ++row) {
                 for (int column = 0; column < order; ++column) {
-                    sum.h[row][column] += 0.25 * matrix.m[a][b] *
-                                          pauli[a][row / 2][column / 2] *
+                    sum.h[row][column] += 0.25 * matrix.m[a][b] * pauli[a][row / 2][column / 2] *
                                           std::conj(pauli[b][row % 2][column % 2]);
                 }
             }
@@ -54,7 +53,8 @@ void annihilate(Hermitian* matrix, int p, int q) {
     const double tau = (h[q][q].real() - h[p][p].real()) / (2 * size);
     const double t = (tau >= 0 ? 1.0 : -1.0) / (std::abs(tau) + std::sqrt(1 + tau * tau));
     const double c = 1 / std::sqrt(1 + t * t), s = t * c;
-    // Columns (p, q) <- (p, q) U, then rows by the adjoint, U = [c, s; -s conj(phase), c conj(phase)].
+    // Columns (p, q) <- (p, q) U, then rows by the adjoint, U = [c, s; -s conj(phase), c
+    // conj(phase)].
     for (int row = 0; row < order; ++row) {
         const Complex64 x = h[row][p], y = h[row][q];
         h[row][p] = c * x - s * std::conj(phase) * y;

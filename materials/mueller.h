@@ -69,8 +69,8 @@ struct Mueller {
         Mueller r;
         for (int i = 0; i < 4; ++i) {
             for (int j = 0; j < 4; ++j) {
-                r.m[i][j] = a.m[i][0] * b.m[0][j] + a.m[i][1] * b.m[1][j] +
-                            a.m[i][2] * b.m[2][j] + a.m[i][3] * b.m[3][j];
+                r.m[i][j] = a.m[i][0] * b.m[0][j] + a.m[i][1] * b.m[1][j] + a.m[i][2] * b.m[2][j] +
+                            a.m[i][3] * b.m[3][j];
             }
         }
         return r;
@@ -87,7 +87,8 @@ struct Mueller {
 template <class T>
 Mueller<T> mueller(const Reflection<T>& r) {
     const T zero(0), A = r.A(), B = r.B();
-    return {{{A, B, zero, zero}, {B, A, zero, zero}, {zero, zero, r.C, -r.S}, {zero, zero, r.S, r.C}}};
+    return {
+        {{A, B, zero, zero}, {B, A, zero, zero}, {zero, zero, r.C, -r.S}, {zero, zero, r.S, r.C}}};
 }
 
 template <class T>

@@ -24,8 +24,8 @@ struct OpticalConstants {
     std::string citation;  // the original publication
     std::string kind;      // "measured", "calculated" (theory or a formula), "digitised" (from a
                            // figure), "fitted"
-    std::vector<double> wavelength_nm;  // strictly ascending
-    std::vector<double> n, k;           // n > 0, k >= 0
+    std::vector<double> wavelength_nm;     // strictly ascending
+    std::vector<double> n, k;              // n > 0, k >= 0
     std::vector<double> sigma_n, sigma_k;  // standard deviations; empty where not known
     RangePolicy policy = RangePolicy::clamp;
 
@@ -33,7 +33,9 @@ struct OpticalConstants {
     void check() const;
     double first_nm() const { return wavelength_nm.front(); }
     double last_nm() const { return wavelength_nm.back(); }
-    bool covers(double first, double last) const { return first_nm() <= first && last_nm() >= last; }
+    bool covers(double first, double last) const {
+        return first_nm() <= first && last_nm() >= last;
+    }
     // Linear interpolation. Outside the table: the end value (clamp) or Error (user) naming the
     // range (error). A NaN wavelength is an Error (user).
     Index at(double wavelength_nm) const;

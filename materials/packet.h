@@ -145,8 +145,7 @@ Packet<N> exp(const Packet<N>& a) {
     const Packet<N> x = min(max(a, Packet<N>(-87.0f)), Packet<N>(88.0f));
     const Packet<N> n = round_small(x * Packet<N>(1.44269504f));
     // ln 2 in two parts (Cody & Waite 1980), so that the remainder keeps its digits.
-    const Packet<N> r =
-        (x - n * Packet<N>(0.693359375f)) + n * Packet<N>(2.12194440e-4f);
+    const Packet<N> r = (x - n * Packet<N>(0.693359375f)) + n * Packet<N>(2.12194440e-4f);
     Packet<N> p(1.0f / 5040);
     for (const float c : {1.0f / 720, 1.0f / 120, 1.0f / 24, 1.0f / 6, 0.5f, 1.0f, 1.0f}) {
         p = p * r + Packet<N>(c);

@@ -55,8 +55,8 @@ const std::array<std::array<double, 3>, 3>& rgb_from_xyz();
 const std::array<std::array<double, 3>, 3>& xyz_from_rgb();
 
 // The three basis reflectances of Mallett & Yuksel 2019 (EGSR), for red, green, blue: they sum to
-// 1, so white is a flat spectrum, and their weighted sum under D65 has the given RGB. (The published
-// numbers sum to 1 within 1e-5; here they are divided by their sum.)
+// 1, so white is a flat spectrum, and their weighted sum under D65 has the given RGB. (The
+// published numbers sum to 1 within 1e-5; here they are divided by their sum.)
 const std::array<DenseSpectrum, 3>& mallett_yuksel_basis();
 // sum_c rgb_c basis_c: a reflectance for rgb in [0, 1].
 DenseSpectrum rgb_reflectance(const RGB& rgb);

@@ -1,6 +1,7 @@
 // A smooth surface of a material record: substrate and films at one wavelength and angle.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "materials/film_stack.h"
@@ -15,12 +16,25 @@ inline Reflection<double> reflect(const Material& material, double wavelength_nm
         const Index at = constants.at(wavelength_nm);
         return ComplexIndex<double>{at.n, at.k};
     };
-    std::vector<Film<double>> films;
+    std::vector<ThinFilm<double>> films;
     for (const FilmLayer& layer : material.layers) {
         films.push_back({index(layer.constants), layer.thickness_nm});
     }
     return reflect(films.data(), static_cast<int>(films.size()), index(material.substrate),
                    cos_theta, wavelength_nm);
+}
+
+// True where substrate and films are vacuum: nothing is reflected but rounding, and Psi and Delta
+// do not exist.
+inline bool is_vacuum(const Material& material, double wavelength_nm) {
+    const auto vacuum = [&](const OpticalConstants& constants) {
+        const Index at = constants.at(wavelength_nm);
+        return at.n == 1 && at.k == 0;
+    };
+    for (const FilmLayer& layer : material.layers) {
+        if (!vacuum(layer.constants)) return false;
+    }
+    return vacuum(material.substrate);
 }
 
 // What a caller should be told before using the material from `first_nm` to `last_nm`: one

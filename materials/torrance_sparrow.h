@@ -18,7 +18,7 @@ namespace drude {
 template <class T>
 struct Surface {
     ComplexIndex<T> substrate;
-    const Film<T>* films = nullptr;
+    const ThinFilm<T>* films = nullptr;
     int film_count = 0;
     T wavelength{1.0};  // in the unit of the films' thickness; unused without films
 

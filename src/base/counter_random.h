@@ -30,8 +30,8 @@ inline PhiloxBlock philox(PhiloxBlock counter, std::array<uint32_t, 2> key) {
 inline std::array<double, 2> normal_pair(uint64_t seed, uint64_t index, uint64_t stream = 0) {
     const auto low = [](uint64_t x) { return static_cast<uint32_t>(x); };
     const auto high = [](uint64_t x) { return static_cast<uint32_t>(x >> 32); };
-    const PhiloxBlock bits = philox({low(index), high(index), low(stream), high(stream)},
-                                    {low(seed), high(seed)});
+    const PhiloxBlock bits =
+        philox({low(index), high(index), low(stream), high(stream)}, {low(seed), high(seed)});
     // 53 bits each: u in (0, 1], so that its logarithm is finite, and v in [0, 1).
     const auto fraction = [](uint32_t a, uint32_t b) { return (uint64_t{a} << 32 | b) >> 11; };
     const double u = static_cast<double>(fraction(bits[0], bits[1]) + 1) * 0x1p-53;

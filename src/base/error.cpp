@@ -13,7 +13,9 @@ std::string Place::str() const {
 
 namespace {
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+char lower(char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
 
 // Optimal string alignment distance: Levenshtein plus swaps of neighbours, case-blind.
 size_t edit_distance(std::string_view a, std::string_view b) {

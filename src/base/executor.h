@@ -13,9 +13,10 @@ namespace drude {
 // Hardware threads this process may use, at least 1.
 int available_threads();
 
-// Runs body(i) for i in [0, count), on `threads` threads (0: all available). Indices are handed
-// out singly in ascending order, so a body should be worth a microsecond at least. The first
-// exception thrown by a body ends the loop and is rethrown here.
+// Runs body(i) for i in [0, count), on `threads` threads (0: all available; at most 256). Indices
+// are handed out singly in ascending order, so a body should be worth a microsecond at least. A
+// body that throws ends the loop; what the lowest failing index threw is rethrown here, the same
+// for any number of threads.
 void parallel_for(size_t count, int threads, const std::function<void(size_t)>& body);
 
 }  // namespace drude

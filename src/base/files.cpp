@@ -30,16 +30,20 @@ std::string read_file(const std::string& path, uint64_t limit_bytes) {
     char buffer[1 << 16];
     for (;;) {
         const int count = gzread(file.get(), buffer, sizeof buffer);
-        if (count < 0) {
-            int code = 0;
-            const char* reason = gzerror(file.get(), &code);
-            user_error("{}: cannot read: {}", path,
-                       code == Z_ERRNO ? std::strerror(errno) : reason);
+        int code = Z_OK;
+        const char* reason = gzerror(file.get(), &code);
+        if (code == Z_ERRNO) {
+            if (errno == EIO) outside_error("{}: cannot read: {}", path, std::strerror(errno));
+            user_error("{}: cannot read: {}", path, std::strerror(errno));
         }
+        // Z_BUF_ERROR is a compressed file cut short: zlib hands out what there is as if it were
+        // all.
+        if (code == Z_BUF_ERROR) user_error("{}: the compressed data ends too early", path);
+        if (count < 0) user_error("{}: cannot unpack: {}", path, reason);
         if (count == 0) break;
         bytes.append(buffer, static_cast<size_t>(count));
         if (bytes.size() > limit_bytes) {
-            user_error("{}: larger than {} MiB", path, limit_bytes >> 20);
+            user_error("{}: found more than {} bytes, expected fewer", path, limit_bytes);
         }
     }
     return bytes;
@@ -47,25 +51,83 @@ std::string read_file(const std::string& path, uint64_t limit_bytes) {
 
 namespace {
 
-std::string temporary_name(const std::string& path) {
-    static std::atomic<unsigned> counter{0};
-    const std::filesystem::path target(path);
-    std::filesystem::path name = target.parent_path();
-    name /= fmt::format(".{}.{}-{}.tmp{}", target.stem().string(), getpid(), counter++,
-                        target.extension().string());
-    return name.string();
+std::string cannot_write(const std::string& path) {
+    return fmt::format("{}: cannot write: {}", path, std::strerror(errno));
+}
+
+// A name beside the target that no other run uses at the same time; `attempt` sets it apart from
+// what a crashed run with the same process number left behind.
+std::string temporary_name(const std::filesystem::path& folder, const std::filesystem::path& target,
+                           unsigned attempt) {
+    // A file name holds 255 bytes; the target's own may already do.
+    const std::string stem = target.stem().string().substr(0, 100);
+    const std::string extension = target.extension().string().substr(0, 100);
+    return (folder / fmt::format(".{}.{}-{}.tmp{}", stem, getpid(), attempt, extension)).string();
+}
+
+// Writes all of `bytes`; false with errno set where the system says no.
+bool write_all(int descriptor, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+        if (count < 0 && errno != EINTR) return false;
+        if (count > 0) bytes.remove_prefix(static_cast<size_t>(count));
+    }
+    return true;
+}
+
+// Copies the whole of `from` to the device, pipe or terminal at `path`.
+void copy_to_device(int from, const std::string& path) {
+    const int device = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (device < 0) throw Error(Cause::outside, cannot_write(path));
+    bool good = lseek(from, 0, SEEK_SET) == 0;
+    char buffer[1 << 16];
+    while (good) {
+        const ssize_t count = ::read(from, buffer, sizeof buffer);
+        if (count == 0) break;
+        good = count > 0 && write_all(device, {buffer, static_cast<size_t>(count)});
+    }
+    const std::string message = good ? "" : cannot_write(path);
+    close(device);
+    if (!good) throw Error(Cause::outside, message);
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path)
-    : path_(std::move(path)), temporary_path_(temporary_name(path_)) {
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), final_path_(path_) {
+    namespace fs = std::filesystem;
     struct stat status {};
-    if (stat(path_.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) {
-        user_error("{}: is a folder; expected a file name to write to", path_);
+    const bool exists = stat(path_.c_str(), &status) == 0;
+    // Found now: the rename at the end of the work would be too late.
+    if (!exists && errno == ENAMETOOLONG) user_error("{}: the file name is too long", path_);
+    if (path_.empty() || path_.back() == '/' || (exists && S_ISDIR(status.st_mode))) {
+        user_error("'{}': is a folder; expected a file name to write to", path_);
     }
-    descriptor_ = open(temporary_path_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) outside_error("{}: cannot write: {}", path_, std::strerror(errno));
+    std::error_code error;
+    if (exists) {
+        // Renaming over a link would replace the link, not the file that it names.
+        if (fs::is_symlink(path_, error)) final_path_ = fs::canonical(path_, error).string();
+        if (error || final_path_.empty()) final_path_ = path_;
+        // Renaming would also replace a file whose owner made it read-only.
+        if (access(path_.c_str(), W_OK) != 0) throw Error(Cause::outside, cannot_write(path_));
+    }
+    // Nothing may be renamed over /dev/null or a pipe.
+    to_device_ = exists && !S_ISREG(status.st_mode);
+    const fs::path target(final_path_);
+    const fs::path folder = to_device_ ? fs::temp_directory_path(error) : target.parent_path();
+    static std::atomic<unsigned> counter{0};
+    do {
+        temporary_path_ = temporary_name(folder, target, counter++);
+        descriptor_ = open(temporary_path_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && errno == EEXIST);
+    if (descriptor_ < 0) {
+        if (errno == ENOENT || errno == ENOTDIR) {
+            user_error("{}: cannot write: there is no folder '{}'; make it first", path_,
+                       folder.empty() ? "." : folder.string());
+        }
+        throw Error(Cause::outside, cannot_write(path_));
+    }
+    // A file that only its owner may read stays so.
+    if (exists && !to_device_) fchmod(descriptor_, status.st_mode & 07777);
 }
 
 AtomicFile::~AtomicFile() {
@@ -74,27 +136,18 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
-        if (count < 0) {
-            if (errno == EINTR) continue;
-            outside_error("{}: cannot write: {}", path_, std::strerror(errno));
-        }
-        bytes.remove_prefix(static_cast<size_t>(count));
-    }
+    if (!write_all(descriptor_, bytes)) throw Error(Cause::outside, cannot_write(path_));
 }
 
 void AtomicFile::commit() {
-    if (fsync(descriptor_) != 0) {
-        outside_error("{}: cannot write: {}", path_, std::strerror(errno));
-    }
-    if (rename(temporary_path_.c_str(), path_.c_str()) != 0) {
-        outside_error("{}: cannot write: {}", path_, std::strerror(errno));
+    if (to_device_) return copy_to_device(descriptor_, path_);
+    if (fsync(descriptor_) != 0 || rename(temporary_path_.c_str(), final_path_.c_str()) != 0) {
+        throw Error(Cause::outside, cannot_write(path_));
     }
     committed_ = true;
     // The rename itself must reach the disk too; a file system that cannot sync a folder
     // (EINVAL) has nothing more to offer.
-    const std::string parent = std::filesystem::path(path_).parent_path().string();
+    const std::string parent = std::filesystem::path(final_path_).parent_path().string();
     const int folder = open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY);
     if (folder >= 0) {
         fsync(folder);
@@ -111,8 +164,12 @@ void write_file(const std::string& path, std::string_view bytes) {
 void make_folder(const std::string& path) {
     std::error_code error;
     std::filesystem::create_directories(path, error);
-    if (error) outside_error("{}: cannot create the folder: {}", path, error.message());
-    if (!std::filesystem::is_directory(path)) outside_error("{}: is not a folder", path);
+    struct stat status {};
+    if (stat(path.c_str(), &status) != 0) {
+        outside_error("{}: cannot create the folder: {}", path,
+                      error ? error.message() : std::strerror(errno));
+    }
+    if (!S_ISDIR(status.st_mode)) user_error("{}: is a file; expected a folder", path);
 }
 
 }  // namespace drude

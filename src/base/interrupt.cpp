@@ -18,10 +18,14 @@ extern "C" void on_signal(int signal) {
 }  // namespace
 
 void catch_interrupts() {
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
+    for (const int signal : {SIGINT, SIGTERM}) {
+        // Whoever started this in the background asked that the signal be ignored.
+        if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+    }
 }
 
-int interrupted() { return caught; }
+int interrupted() {
+    return caught;
+}
 
 }  // namespace drude

@@ -3,7 +3,8 @@
 
 namespace drude {
 
-// Installs the handlers; a second signal of the same kind ends the process at once.
+// Installs the handlers; a second signal of the same kind ends the process at once. A signal that
+// the process was started to ignore (nohup, a background job of a script) stays ignored.
 void catch_interrupts();
 
 // The signal that arrived (SIGINT, SIGTERM), or 0.

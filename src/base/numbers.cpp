@@ -28,17 +28,30 @@ std::optional<T> parse_all(std::string_view text) {
 
 }  // namespace
 
-std::optional<double> parse_double(std::string_view text) { return parse_all<double>(text); }
+std::optional<double> parse_double(std::string_view text) {
+    return parse_all<double>(text);
+}
 
-std::optional<long long> parse_integer(std::string_view text) { return parse_all<long long>(text); }
+std::optional<long long> parse_integer(std::string_view text) {
+    return parse_all<long long>(text);
+}
 
-std::string format_double(double value) { return fmt::format("{}", value); }
+std::optional<uint64_t> parse_unsigned(std::string_view text) {
+    return parse_all<uint64_t>(text);
+}
+
+std::string format_double(double value) {
+    // A NaN's sign means nothing, and "-nan" would be one more spelling for readers to know.
+    if (std::isnan(value)) return "nan";
+    return fmt::format("{}", value);
+}
 
 std::string json_number(double value) {
     return std::isfinite(value) ? format_double(value) : std::string("null");
 }
 
 std::vector<double> parse_grid(std::string_view text, std::string_view what) {
+    constexpr size_t largest_grid = 100000;
     const auto number = [&](std::string_view word) {
         const std::optional<double> value = parse_double(word);
         if (!value || !std::isfinite(*value)) {
@@ -68,12 +81,22 @@ std::vector<double> parse_grid(std::string_view text, std::string_view what) {
         if (words.size() != 3) user_error("{}: '{}' is not FIRST:LAST:STEP", what, part);
         const double first = number(words[0]), last = number(words[1]), step = number(words[2]);
         if (!(step > 0)) user_error("{}: the step in '{}' must be positive", what, part);
-        if (last < first) user_error("{}: the range '{}' is empty: {} < {}", what, part, last, first);
+        if (last < first)
+            user_error("{}: the range '{}' is empty: {} < {}", what, part, last, first);
         const double count = std::floor((last - first) / step + 1e-9) + 1;
-        if (count > 100000) user_error("{}: '{}' holds more than 100000 values", what, part);
-        for (int i = 0; i < static_cast<int>(count); ++i) grid.push_back(first + i * step);
+        if (static_cast<double>(grid.size()) + count > largest_grid) {
+            user_error("{}: '{}' holds more than {} values", what, part, largest_grid);
+        }
+        for (int i = 0; i < static_cast<int>(count); ++i) {
+            // Rounding must not carry the last value past the end that was typed.
+            const double value = first + i * step;
+            const bool at_end = std::abs(value - last) < 1e-9 * step;
+            grid.push_back(at_end ? last : value);
+        }
     }
-    if (grid.size() > 100000) user_error("{}: more than 100000 values", what);
+    if (grid.size() > largest_grid) {
+        user_error("{}: found {} values, expected at most {}", what, grid.size(), largest_grid);
+    }
     return grid;
 }
 

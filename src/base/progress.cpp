@@ -3,10 +3,23 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
 namespace drude {
+
+namespace {
+
+// A bar needs a terminal that can go back to the start of a line.
+bool draws_bars() {
+    const char* kind = std::getenv("TERM");
+    return isatty(STDERR_FILENO) != 0 && kind != nullptr && std::strcmp(kind, "dumb") != 0;
+}
+
+}  // namespace
 
 using Clock = std::chrono::steady_clock;
 
@@ -17,11 +30,12 @@ std::string format_duration(double seconds) {
     return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-Progress::Progress(std::string title, size_t total, bool quiet)
+Progress::Progress(std::string title, size_t total, bool quiet, std::chrono::milliseconds period)
     : title_(std::move(title)),
       total_(total),
       quiet_(quiet),
-      terminal_(isatty(STDERR_FILENO) != 0),
+      terminal_(draws_bars()),
+      period_(terminal_ ? std::chrono::milliseconds(100) : period),
       start_(Clock::now()),
       printed_(start_) {}
 
@@ -35,9 +49,8 @@ void Progress::step(size_t count) {
     const std::lock_guard<std::mutex> lock(mutex_);
     done_ += count;
     if (quiet_) return;
-    const auto period = terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(5000);
     const Clock::time_point now = Clock::now();
-    if (now - printed_ < period) return;
+    if (now - printed_ < period_) return;
     printed_ = now;
     print(false);
 }
@@ -45,19 +58,23 @@ void Progress::step(size_t count) {
 void Progress::print(bool last) {
     const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
     const double fraction =
-        total_ > 0 ? static_cast<double>(done_) / static_cast<double>(total_) : 1;
+        total_ > 0 ? std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_)) : 1;
     const std::string left =
-        done_ >= total_ || done_ == 0
+        last || done_ >= total_ || done_ == 0
             ? fmt::format("{} taken", format_duration(elapsed))
             : fmt::format("{} left", format_duration(elapsed * (1 - fraction) / fraction));
+    std::string line;
     if (terminal_) {
         constexpr int width = 30;
         const int filled = static_cast<int>(fraction * width);
-        fmt::print(stderr, "\r{} [{:=<{}}{: <{}}] {:3.0f} % {}\033[K{}", title_, "", filled, "",
-                   width - filled, 100 * fraction, left, last ? "\n" : "");
+        line = fmt::format("\r{} [{:=<{}}{: <{}}] {:3.0f} % {}\033[K{}", title_, "", filled, "",
+                           width - filled, 100 * fraction, left, last ? "\n" : "");
     } else {
-        fmt::print(stderr, "{}: {:.0f} %, {}\n", title_, 100 * fraction, left);
+        line = fmt::format("{}: {:.0f} %, {}\n", title_, 100 * fraction, left);
     }
+    // Not fmt::print, which throws where stderr cannot be written: nobody watches, the work goes
+    // on.
+    std::fputs(line.c_str(), stderr);
     std::fflush(stderr);
 }
 

@@ -10,8 +10,10 @@ namespace drude {
 
 class Progress {
   public:
-    // `quiet` prints nothing. `total` counts the steps of step().
-    Progress(std::string title, size_t total, bool quiet);
+    // `quiet` prints nothing. `total` counts the steps of step(). `period` is the time between two
+    // lines off a terminal; a bar moves ten times a second.
+    Progress(std::string title, size_t total, bool quiet,
+             std::chrono::milliseconds period = std::chrono::seconds(5));
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -26,6 +28,7 @@ class Progress {
     size_t total_;
     bool quiet_;
     bool terminal_;
+    std::chrono::milliseconds period_;
     std::mutex mutex_;
     size_t done_ = 0;
     std::chrono::steady_clock::time_point start_, printed_;

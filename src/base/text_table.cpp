@@ -1,5 +1,6 @@
 #include "base/text_table.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/files.h"
@@ -10,6 +11,7 @@ namespace drude {
 namespace {
 
 constexpr std::string_view white = " \t\r";
+constexpr size_t longest_quote = 120;
 
 std::string_view trimmed(std::string_view text) {
     const size_t begin = text.find_first_not_of(white);
@@ -38,8 +40,10 @@ std::vector<Field> split_fields(std::string_view line) {
 // What was found, short enough to print and without control characters.
 std::string quoted(std::string_view text) {
     std::string shown;
-    for (const char c : text.substr(0, 40)) shown += static_cast<unsigned char>(c) < 32 ? '?' : c;
-    return text.size() > 40 ? shown + "..." : shown;
+    for (const char c : text.substr(0, longest_quote)) {
+        shown += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
+    }
+    return text.size() > longest_quote ? shown + "..." : shown;
 }
 
 }  // namespace
@@ -80,12 +84,20 @@ TextTable parse_text_table(const std::string& text, const std::string& file) {
         }
         const std::vector<Field> fields = split_fields(raw_line);
         if (table.columns.empty()) {
-            for (const Field& field : fields) table.columns.emplace_back(field.text);
+            for (const Field& field : fields) {
+                const Place place{file, line_number, field.column};
+                if (field.text.empty()) user_error_at(place, "found a column without a name");
+                if (table.column(field.text) >= 0) {
+                    user_error_at(place, "found the column '{}' a second time", quoted(field.text));
+                }
+                table.columns.emplace_back(field.text);
+            }
             continue;
         }
         if (fields.size() != table.columns.size()) {
             user_error_at({file, line_number, 0}, "found {} fields, expected {} ({})",
-                          fields.size(), table.columns.size(), fmt::join(table.columns, ","));
+                          fields.size(), table.columns.size(),
+                          quoted(fmt::format("{}", fmt::join(table.columns, ","))));
         }
         TableRow row;
         row.line = line_number;
@@ -93,8 +105,8 @@ TextTable parse_text_table(const std::string& text, const std::string& file) {
             const std::optional<double> value = parse_double(fields[i].text);
             if (!value || !std::isfinite(*value)) {
                 user_error_at({file, line_number, fields[i].column},
-                              "found '{}' for {}, expected a finite number",
-                              quoted(fields[i].text), quoted(table.columns[i]));
+                              "found '{}' for {}, expected a finite number", quoted(fields[i].text),
+                              quoted(table.columns[i]));
             }
             row.values.push_back(*value);
         }

@@ -11,8 +11,7 @@
 
 namespace drude {
 
-// One row of a text table with the line it stood on. Empty fields are NaN only where the column is
-// optional; reading rejects NaN, infinities and missing fields otherwise.
+// One row of a text table, as many finite values as there are columns, with the line it stood on.
 struct TableRow {
     std::vector<double> values;
     int line = 0;
@@ -33,7 +32,8 @@ struct TextTable {
 
 // Parses `text`; `file` names it in errors. Accepts LF and CRLF, a UTF-8 byte order mark, blank
 // lines. Throws Error (user) with file:line:column for a row of the wrong length, a field that is
-// no number, NaN or an infinity, or a table without column names.
+// empty, no number, NaN or an infinity, and for a column without a name or with one used before;
+// also where there is no line of column names at all.
 TextTable parse_text_table(const std::string& text, const std::string& file);
 
 // read_file and parse_text_table.

@@ -1,7 +1,8 @@
 // A scene as the renderer takes it: plain data, no syntax left, every name resolved.
 //
 // World space is pbrt's (left-handed for an ordinary scene). Matrices act on column vectors.
-// Spectra lie on the project's 1 nm grid. What a pbrt-v4 file leaves out has pbrt-v4's default here.
+// Spectra lie on the project's 1 nm grid. What a pbrt-v4 file leaves out has pbrt-v4's default
+// here.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,8 @@
 #include "materials/spectrum.h"
 
 namespace drude {
+
+struct Image;
 
 // ---- shapes ------------------------------------------------------------------------------------
 
@@ -52,8 +55,8 @@ struct ConductorMaterial {
     // express; alpha < 0 means "use surface.beta".
     Material surface;
     double alpha = -1;
-    // Instead of a metal: pbrt's "reflectance", a Fresnel-free, unpolarised reflectance with no
-    // phase (R = reflectance for s and p, C = R, S = 0).
+    // Instead of a metal: pbrt's "reflectance", the same at every angle for s and p, with the phase
+    // of an ideal conductor (Delta = 180 degrees: C = -R, S = 0).
     std::optional<DenseSpectrum> reflectance;
 };
 
@@ -69,9 +72,14 @@ using SurfaceMaterial = std::variant<ConductorMaterial, DiffuseMaterial>;
 // constant.
 struct InfiniteLight {
     glm::dmat4 world_from_light{1};
-    std::string image;       // resolved path; empty: constant
+    std::string image;  // resolved path; empty: constant
+    // The picture itself, where it comes from the program and not from a file; `image` names it.
+    std::shared_ptr<const Image> picture;
     DenseSpectrum radiance;  // of a constant light, scale included
     double scale = 1;        // of an image
+    // Of an image: its scale is to be multiplied so that the half with z > 0 in light space gives a
+    // patch facing +z this illuminance (Y of spectrum_to_xyz); 0: the scale is final.
+    double illuminance = 0;
     Place place;
 };
 
@@ -105,7 +113,7 @@ enum class FilterKind { box, gaussian, triangle, mitchell };
 struct Filter {
     FilterKind kind = FilterKind::gaussian;
     double radius_x = 1.5, radius_y = 1.5;
-    double sigma = 0.5;             // gaussian
+    double sigma = 0.5;               // gaussian
     double b = 1.0 / 3, c = 1.0 / 3;  // mitchell
 };
 

@@ -1,0 +1,93 @@
+#include "fitter/export.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/numbers.h"
+
+namespace drude {
+
+namespace {
+
+constexpr double renderer_first_nm = 360, renderer_last_nm = 830;
+
+// A value for a line of its own: a line break in it would end the comment.
+std::string one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return text;
+}
+
+// A JSON string is a YAML double-quoted scalar (YAML 1.2, section 1.3).
+std::string yaml_string(const std::string& text) {
+    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string comments(const OpticalConstants& constants) {
+    std::string text = fmt::format("# name: {}\n", one_line(constants.name));
+    const auto add = [&](const char* key, const std::string& value) {
+        if (!value.empty()) text += fmt::format("# {}: {}\n", key, one_line(value));
+    };
+    add("material", constants.material);
+    add("kind", constants.kind);
+    add("citation", constants.citation);
+    return text;
+}
+
+}  // namespace
+
+std::string format_spd(const OpticalConstants& constants, IndexPart part) {
+    constants.check();
+    const std::vector<double>& values = part == IndexPart::n ? constants.n : constants.k;
+    std::string text = comments(constants);
+    text += fmt::format("# {} against vacuum wavelength in nm, N = n + ik\n",
+                        part == IndexPart::n ? "n" : "k");
+    const auto line = [&](double wavelength, double value) {
+        text += fmt::format("{} {}\n", format_double(wavelength), format_double(value));
+    };
+    const bool before = constants.first_nm() > renderer_first_nm;
+    const bool after = constants.last_nm() < renderer_last_nm;
+    if (before || after) {
+        text +=
+            fmt::format("# measured or computed from {} to {} nm; held beyond\n",
+                        format_double(constants.first_nm()), format_double(constants.last_nm()));
+    }
+    if (before) line(renderer_first_nm, values.front());
+    for (size_t i = 0; i < values.size(); ++i) line(constants.wavelength_nm[i], values[i]);
+    if (after) line(renderer_last_nm, values.back());
+    return text;
+}
+
+std::string format_refractiveindex_info(const OpticalConstants& constants) {
+    constants.check();
+    std::string text = "# written by drude in the format of the refractiveindex.info database\n";
+    text += fmt::format("REFERENCES: {}\n", yaml_string(constants.citation));
+    text += fmt::format("COMMENTS: {}\n",
+                        yaml_string(fmt::format("{} ({})", constants.name, constants.kind)));
+    text += "DATA:\n  - type: tabulated nk\n    data: |\n";
+    for (size_t i = 0; i < constants.n.size(); ++i) {
+        text += fmt::format("        {} {} {}\n", format_double(constants.wavelength_nm[i] / 1000),
+                            format_double(constants.n[i]), format_double(constants.k[i]));
+    }
+    return text;
+}
+
+std::string format_constants_csv(const OpticalConstants& constants) {
+    constants.check();
+    std::string text = comments(constants);
+    const bool sigma = !constants.sigma_n.empty() && !constants.sigma_k.empty();
+    text += sigma ? "wavelength_nm,n,k,sigma_n,sigma_k\n" : "wavelength_nm,n,k\n";
+    for (size_t i = 0; i < constants.n.size(); ++i) {
+        text += fmt::format("{},{},{}", format_double(constants.wavelength_nm[i]),
+                            format_double(constants.n[i]), format_double(constants.k[i]));
+        if (sigma) {
+            text += fmt::format(",{},{}", format_double(constants.sigma_n[i]),
+                                format_double(constants.sigma_k[i]));
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+}  // namespace drude

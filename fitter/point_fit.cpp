@@ -1,0 +1,191 @@
+#include "fitter/point_fit.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "base/error.h"
+#include "fitter/identifiability.h"
+#include "fitter/inversion.h"
+#include "fitter/residuals.h"
+
+namespace drude {
+
+namespace {
+
+// All residuals of a wavelength as a function of (n, k).
+struct PointResiduals {
+    const WavelengthData* data;
+    Estimator estimator;
+
+    int count() const {
+        const int points = static_cast<int>(data->points.size());
+        return estimator == Estimator::rho2 ? points : 2 * points;
+    }
+
+    template <class T>
+    bool operator()(const T* index, T* residuals) const {
+        const ComplexIndex<T> nk{index[0], index[1]};
+        for (const AnglePoint& point : data->points) {
+            const Reflection<T> model = reflect(nk, T(point.cos_theta));
+            if (estimator == Estimator::rho2) {
+                if (!rho2_residual(point, model, residuals)) return false;
+                residuals += 1;
+            } else {
+                if (!psi_delta_residuals(point, model, residuals)) return false;
+                residuals += 2;
+            }
+        }
+        return true;
+    }
+};
+
+using PointCost = ceres::AutoDiffCostFunction<PointResiduals, ceres::DYNAMIC, 2>;
+
+std::unique_ptr<PointCost> make_cost(const PointResiduals& residuals) {
+    return std::make_unique<PointCost>(new PointResiduals(residuals), residuals.count());
+}
+
+// "" where the solver converged.
+std::string minimise(ceres::CostFunction* cost, double* index) {
+    ceres::Problem::Options ownership;
+    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ownership.disable_all_safety_checks = true;
+    ceres::Problem problem(ownership);
+    problem.AddResidualBlock(cost, nullptr, index);
+    problem.SetParameterLowerBound(index, 0, smallest_n);
+    problem.SetParameterLowerBound(index, 1, 0);
+    problem.SetParameterUpperBound(index, 0, largest_index);
+    problem.SetParameterUpperBound(index, 1, largest_index);
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.logging_type = ceres::SILENT;
+    options.num_threads = 1;
+    options.max_num_iterations = 200;
+    options.function_tolerance = 1e-15;
+    options.parameter_tolerance = 1e-13;
+    options.gradient_tolerance = 1e-12;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    if (summary.termination_type == ceres::CONVERGENCE && std::isfinite(index[0]) &&
+        std::isfinite(index[1])) {
+        return "";
+    }
+    return fmt::format("the least squares did not converge within {} steps",
+                       summary.iterations.size());
+}
+
+// A start that is inside the bounds, away from the vacuum (where nothing is reflected) and from
+// k = 0 (where the derivative by k of what reflects symmetrically in k vanishes).
+void make_start(const AveragedIndex& from, double* index) {
+    const bool usable = from.angles > 0 && std::isfinite(from.n) && std::isfinite(from.k);
+    index[0] = usable ? std::clamp(from.n, 1e-3, 0.1 * largest_index) : 1.0;
+    index[1] = usable ? std::clamp(from.k, 1e-6, 0.1 * largest_index) : 1.0;
+    if (std::abs(index[0] - 1) < 1e-3 && index[1] < 1e-3) index[1] = 1e-3;
+}
+
+void refuse(FittedPoint* point, std::string reason) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    point->identifiable = false;
+    point->n = point->k = point->sigma_n = point->sigma_k = point->correlation = nan;
+    point->chi2 = nan;
+    point->reason = std::move(reason);
+}
+
+std::string too_few(const WavelengthData& data, Estimator estimator) {
+    const size_t angles = data.points.size();
+    const std::string where =
+        fmt::format("{} angle{} of incidence", angles, angles == 1 ? "" : "s");
+    if (estimator == Estimator::rho2) {
+        return fmt::format(
+            "{} give{} {} value{} of tan^2 Psi for the two unknowns n and k: measure at two angles "
+            "or more, or use Delta as well (--estimator psi-delta)",
+            where, angles == 1 ? "s" : "", angles, angles == 1 ? "" : "s");
+    }
+    return fmt::format("{}: Psi and Delta do not determine n and k", where);
+}
+
+void fit_least_squares(const WavelengthData& data, Estimator estimator, const AveragedIndex& start,
+                       FittedPoint* point) {
+    const auto cost = make_cost({&data, estimator});
+    double index[2];
+    make_start(start, index);
+    const std::string failure = minimise(cost.get(), index);
+    if (!failure.empty()) return refuse(point, failure);
+    if (std::max(index[0], index[1]) > 0.999 * largest_index) {
+        return refuse(point, "no bare surface explains the data: n and k run off to infinity");
+    }
+
+    const size_t count = static_cast<size_t>(point->data);
+    std::vector<double> residuals(count), jacobian(2 * count);
+    const double* parameters[] = {index};
+    double* jacobians[] = {jacobian.data()};
+    if (!cost->Evaluate(parameters, residuals.data(), jacobians)) {
+        return refuse(point, "the solution reflects nothing");
+    }
+    const Identifiability known = analyse_jacobian(jacobian, point->data, 2);
+    point->condition = known.condition;
+    if (!known.all()) {
+        return refuse(point, "the data do not determine n and k: their Jacobian has no full rank");
+    }
+    point->identifiable = true;
+    point->n = index[0];
+    point->k = index[1];
+    point->sigma_n = known.sigma[0];
+    point->sigma_k = known.sigma[1];
+    point->correlation = known.correlation[1];
+    for (const double residual : residuals) point->chi2 += residual * residual;
+}
+
+void take_inversion(const WavelengthData& data, const AveragedIndex& average, FittedPoint* point) {
+    if (average.angles == 0) return refuse(point, too_few(data, Estimator::inversion));
+    double index[2] = {std::max(average.n, smallest_n), std::max(average.k, 0.0)};
+    const auto cost = make_cost({&data, Estimator::inversion});
+    const size_t count = static_cast<size_t>(point->data);
+    std::vector<double> residuals(count), jacobian(2 * count);
+    const double* parameters[] = {index};
+    double* jacobians[] = {jacobian.data()};
+    if (!cost->Evaluate(parameters, residuals.data(), jacobians)) {
+        return refuse(point, "the solution reflects nothing");
+    }
+    point->condition = analyse_jacobian(jacobian, point->data, 2).condition;
+    point->identifiable = true;
+    point->n = index[0];
+    point->k = index[1];
+    point->sigma_n = average.sigma_n;
+    point->sigma_k = average.sigma_k;
+    point->correlation = average.correlation;
+    for (const double residual : residuals) point->chi2 += residual * residual;
+}
+
+}  // namespace
+
+FittedPoint fit_point(const WavelengthData& data, Estimator estimator) {
+    FittedPoint point;
+    point.wavelength_nm = data.wavelength_nm;
+    point.data = PointResiduals{&data, estimator}.count();
+    if (point.data < 2) {
+        refuse(&point, too_few(data, estimator));
+        return point;
+    }
+    const AveragedIndex inverted = invert_and_average(data);
+    if (estimator == Estimator::inversion) {
+        take_inversion(data, inverted, &point);
+    } else if (estimator == Estimator::rho2) {
+        fit_least_squares(data, estimator, start_from_tan2_psi(data), &point);
+    } else {
+        fit_least_squares(data, estimator, inverted, &point);
+    }
+    // Delta takes no part in rho2, and neither does what follows from it.
+    if (estimator != Estimator::rho2) {
+        point.spread_n = inverted.spread_n;
+        point.spread_k = inverted.spread_k;
+    }
+    point.at_bound = point.identifiable && (point.n <= smallest_n * 1.001 || point.k <= 0);
+    return point;
+}
+
+}  // namespace drude

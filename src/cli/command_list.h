@@ -1,0 +1,19 @@
+// One function a command; each stands in the command's own file and is listed in commands.cpp.
+#pragma once
+
+#include "cli/command.h"
+
+namespace drude {
+
+Command eval_command();
+Command simulate_command();
+Command convert_command();
+Command fit_command();
+Command render_command();
+Command compare_command();
+Command tonemap_command();
+Command reproduce_command();
+Command materials_command();
+Command devices_command();
+
+}  // namespace drude

@@ -1,0 +1,247 @@
+// drude compare: are two pictures the same, and if not, where and by how much.
+#include "image/compare.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/numbers.h"
+#include "cli/command_list.h"
+#include "image/difference.h"
+
+namespace drude {
+
+namespace {
+
+struct Options {
+    std::string a, b, output, channels, tolerance, range;
+    bool exact = false, log = false, is_signed = false;
+    double alpha = 1e-3;
+};
+
+const char* word(Decision decision) {
+    switch (decision) {
+        case Decision::exact:
+            return "exact";
+        case Decision::tolerance:
+            return "tolerance";
+        case Decision::noise:
+            return "noise";
+        case Decision::identical:
+            return "identical";
+    }
+    return "";
+}
+
+// NaN and infinities have no JSON number.
+nlohmann::json number(double value) {
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+nlohmann::json figures_json(const Figures& figures) {
+    return {{"mean_error", number(figures.mean_error)},
+            {"mae", number(figures.mae)},
+            {"rmse", number(figures.rmse)},
+            {"relmse", number(figures.relmse)},
+            {"smape", number(figures.smape)},
+            {"psnr", number(figures.psnr)},
+            {"max_error", number(figures.max_error)}};
+}
+
+nlohmann::json to_json(const Comparison& comparison, const Options& options) {
+    nlohmann::json json = figures_json(comparison.all);
+    json["a"] = options.a;
+    json["b"] = options.b;
+    json["same"] = comparison.same;
+    json["decision"] = word(comparison.decision);
+    json["reason"] = comparison.reason;
+    json["not_finite"] = comparison.not_finite;
+    for (size_t c = 0; c < comparison.channels.size(); ++c) {
+        json["channels"][comparison.channels[c]] = figures_json(comparison.each[c]);
+    }
+    // Without variances nothing is known about noise; null says so.
+    for (const char* key : {"p_min", "outlier_fraction", "smallest_detectable_bias"}) {
+        json[key] = nullptr;
+    }
+    if (comparison.noise) {
+        const NoiseTest& noise = *comparison.noise;
+        json["p_min"] = noise.p_min;
+        json["p_pixels"] = noise.p_pixels;
+        json["p_blocks"] = noise.p_blocks;
+        json["p_global"] = noise.p_global;
+        json["outlier_fraction"] = noise.outlier_fraction;
+        json["smallest_detectable_bias"] = number(noise.smallest_detectable_bias);
+        json["alpha"] = options.alpha;
+        json["tests"] = noise.tests;
+    }
+    if (comparison.decision == Decision::tolerance) {
+        json["beyond_tolerance"] = comparison.beyond_tolerance;
+    }
+    return json;
+}
+
+void print(const Comparison& comparison, const Options& options) {
+    const Figures& all = comparison.all;
+    fmt::print("{}: {} against {}, channels {}\n", comparison.same ? "same" : "different",
+               options.a, options.b, fmt::join(comparison.channels, " "));
+    fmt::print("  {}\n", comparison.reason);
+    const auto line = [](const char* name, double value) {
+        fmt::print("  {:<26}{:.6g}\n", name, value);
+    };
+    line("mean error (a - b)", all.mean_error);
+    line("mean absolute error", all.mae);
+    line("RMSE", all.rmse);
+    line("relative MSE", all.relmse);
+    line("SMAPE", all.smape);
+    line("PSNR / dB", all.psnr);
+    line("largest error", all.max_error);
+    if (comparison.not_finite > 0) {
+        fmt::print("  {:<26}{}\n", "NaN or infinite values", comparison.not_finite);
+    }
+    if (!comparison.noise) return;
+    line("p, corrected", comparison.noise->p_min);
+    line("  of pixels", comparison.noise->p_pixels);
+    line("  of 8x8 blocks", comparison.noise->p_blocks);
+    line("  of the mean", comparison.noise->p_global);
+    line("outlier fraction", comparison.noise->outlier_fraction);
+    line("smallest detectable bias", comparison.noise->smallest_detectable_bias);
+}
+
+void read_range(const std::string& text, ColourBar& bar) {
+    const size_t comma = text.find(',');
+    const std::optional<double> low = parse_double(text.substr(0, comma));
+    const std::optional<double> high =
+        comma == std::string::npos ? std::nullopt : parse_double(text.substr(comma + 1));
+    if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high) || !(*low < *high)) {
+        user_error("--range '{}': expected LOW,HIGH with LOW below HIGH, e.g. -5,0", text);
+    }
+    bar.low = *low;
+    bar.high = *high;
+}
+
+void write_difference(const Image& a, const Image& b, const std::vector<std::string>& channels,
+                      const Options& options, const ColourBar& bar) {
+    if (std::filesystem::path(options.output).extension() == ".exr") {
+        Image difference;
+        difference.width = a.width;
+        difference.height = a.height;
+        for (const std::string& name : channels) {
+            Channel& channel = difference.add(name);
+            const Channel& in_a = a.at(name, options.a);
+            const Channel& in_b = b.at(name, options.b);
+            for (size_t i = 0; i < channel.data.size(); ++i) {
+                channel.data[i] = in_a.data[i] - in_b.data[i];
+            }
+        }
+        write_exr(options.output, difference, Compression::zip);
+        return;
+    }
+    const std::vector<double> values =
+        options.is_signed ? signed_difference(a, b, channels) : log_difference(a, b, channels);
+    const Picture picture = with_colour_bar(map_values(a.width, a.height, values, bar), bar);
+    write_png(options.output, picture.width, picture.height, picture.rgb);
+}
+
+// Everything that can be wrong with the options alone, before files are read.
+ColourBar check(const Options& options) {
+    if (options.exact && !options.tolerance.empty()) {
+        user_error("--exact and --tolerance: choose one");
+    }
+    if (options.log && options.is_signed) user_error("--log and --signed: choose one");
+    if (options.output.empty()) {
+        const char* needs = options.log              ? "--log"
+                            : options.is_signed      ? "--signed"
+                            : !options.range.empty() ? "--range"
+                                                     : nullptr;
+        if (needs)
+            user_error("{}: describes the difference picture; name it with -o DIFF.png", needs);
+    } else {
+        const std::string extension = std::filesystem::path(options.output).extension().string();
+        if (extension != ".png" && extension != ".exr") {
+            user_error("-o {}: expected a name that ends in .png (colours) or .exr (a - b)",
+                       options.output);
+        }
+    }
+    if (!(options.alpha > 0.0) || !(options.alpha < 1.0)) {
+        user_error("--alpha {}: expected a probability between 0 and 1, e.g. 0.001", options.alpha);
+    }
+    ColourBar bar = options.is_signed ? signed_difference_bar() : log_difference_bar();
+    if (!options.range.empty()) read_range(options.range, bar);
+    return bar;
+}
+
+int run(const Options& options, const CommonOptions& common) {
+    const ColourBar bar = check(options);
+    CompareOptions compare;
+    compare.exact = options.exact;
+    compare.alpha = options.alpha;
+    compare.threads = common.threads;
+    if (!options.tolerance.empty()) compare.tolerance = parse_tolerance(options.tolerance);
+    const Image a = read_image(options.a);
+    const Image b = read_image(options.b);
+    if (!options.channels.empty()) {
+        compare.channels = parse_channels(options.channels, a, options.a);
+    }
+    const Comparison comparison = compare_images(a, b, options.a, options.b, compare);
+    if (!options.output.empty()) {
+        write_difference(a, b, comparison.channels, options, bar);
+    }
+    if (common.json) {
+        fmt::print("{}\n", to_json(comparison, options).dump(2));
+    } else {
+        print(comparison, options);
+    }
+    return comparison.same ? 0 : static_cast<int>(Cause::answer_is_no);
+}
+
+}  // namespace
+
+Command compare_command() {
+    Command command;
+    command.name = "compare";
+    command.summary = "difference of two pictures, with the noise taken into account";
+    command.description =
+        "Compares A with B (the reference) and exits with 0 where they count as the same, 1 where "
+        "they differ, 2 where they cannot be compared (other size, missing channel, bad file).\n\n"
+        "What decides: with --exact, all channels and their names, bit for bit; with --tolerance "
+        "ABS,REL,PERCENT, at most PERCENT % of the values may be further apart than the larger of "
+        "ABS and REL times the value. Otherwise, where both files hold the variances between "
+        "batches that 'drude render' writes, Welch's test on pixels, on 8x8 blocks and on the "
+        "mean, "
+        "at a false-alarm probability of --alpha for the whole comparison; where they do not, only "
+        "equal values are the same. The smallest detectable bias says what such a test could have "
+        "seen: a mean difference of that size is revealed with 95 % probability.\n\n"
+        "Figures: mean error (a - b), mean absolute error, RMSE, relative MSE "
+        "((a - b)^2 / (b^2 + 0.01)), SMAPE, PSNR (peak: largest |b|), largest error.\n\n"
+        "-o DIFF.png draws log10 of the mean over the channels of |a - b| from -5 to 0 (--log, the "
+        "default) or the mean of a - b from -0.1 to 0.1 (--signed), with a colour bar; --range "
+        "sets another range. Magenta marks what is no number. -o DIFF.exr writes a - b itself.";
+    command.example =
+        "drude compare fitted.exr literature.exr --log -o difference.png\n"
+        "drude compare new.exr reference.exr --json\n"
+        "drude compare one.exr two.exr --channels S1,S2 --tolerance 1e-5,1e-3,0.1";
+    command.declare = [](OptionSet& set, const CommonOptions& common) {
+        const auto options = std::make_shared<Options>();
+        set.positional("A", options->a, "The picture in question.", true);
+        set.positional("B", options->b, "The reference.", true);
+        set.flag("--exact", options->exact, "Compare pixels and channel names bit for bit.");
+        set.option("--tolerance", options->tolerance,
+                   "ABS,REL,PERCENT: the difference that is allowed.");
+        set.option("--alpha", options->alpha, "Probability of a false alarm of the noise test.");
+        set.option("--channels", options->channels,
+                   "Channels, layers (S1 for S1.*) or 'all'; R,G,B unless given.");
+        set.flag("--log", options->log, "Draw log10 |a - b|, the default.");
+        set.flag("--signed", options->is_signed, "Draw a - b.");
+        set.option("--range", options->range, "LOW,HIGH: what the ends of the colours stand for.");
+        set.option("-o,--output", options->output, "Write the difference picture, .png or .exr.");
+        return [options, &common] { return run(*options, common); };
+    };
+    return command;
+}
+
+}  // namespace drude

@@ -1,0 +1,119 @@
+// `drude devices`: what a measurement could be made with.
+#include <cstdio>
+#include <memory>
+
+#include "base/error.h"
+#include "cli/command_list.h"
+#include "cli/json_output.h"
+#include "device/usb.h"
+
+namespace drude {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+struct DevicesOptions {
+    bool all = false;
+};
+
+void print_json(const UsbListing& listing) {
+    ordered_json devices = ordered_json::array();
+    for (const UsbDevice& device : listing.devices) {
+        ordered_json entry = {{"vendor", fmt::format("{:04x}", device.vendor)},
+                              {"product", fmt::format("{:04x}", device.product)},
+                              {"bus", device.bus},
+                              {"address", device.address},
+                              {"serial", device.serial},
+                              {"manufacturer", device.manufacturer},
+                              {"product_name", device.product_name},
+                              {"family", device.family.name},
+                              {"kind", device.family.kind},
+                              {"family_certain", device.family.certain},
+                              {"permitted", device.permitted},
+                              {"problem", device.problem}};
+        if (!device.permitted) entry["udev_rule"] = udev_rule(device.vendor, device.product);
+        devices.push_back(std::move(entry));
+    }
+    const ordered_json document = {
+        {"usb", devices}, {"note", listing.note}, {"virtual", "virtual:MATERIAL"}};
+    print_json_document(document);
+}
+
+void print_device(const UsbDevice& device) {
+    const bool known = !device.family.name.empty();
+    std::string what = known ? device.family.name : device.product_name;
+    if (what.empty()) what = "no instrument known here";
+    fmt::print("usb {:03}:{:03}  {:04x}:{:04x}  serial {:<16}  {}{}\n", device.bus, device.address,
+               device.vendor, device.product, device.serial.empty() ? "-" : device.serial, what,
+               known ? fmt::format(" ({}{})", device.family.certain ? "" : "perhaps a ",
+                                   device.family.kind)
+                     : "");
+}
+
+void print_text(const UsbListing& listing, bool all) {
+    size_t others = 0, known = 0;
+    for (const UsbDevice& device : listing.devices) {
+        const bool is_known = !device.family.name.empty();
+        ++(is_known ? known : others);
+        if (is_known || all) print_device(device);
+    }
+    if (known == 0) {
+        fmt::print("No instrument found on USB{}.\n",
+                   listing.note.empty() ? "" : ": " + listing.note);
+    }
+    if (others > 0 && !all) {
+        fmt::print("{} other USB device{}; --all lists {} too.\n", others, others == 1 ? "" : "s",
+                   others == 1 ? "it" : "them");
+    }
+    fmt::print(
+        "virtual:MATERIAL  always there: a simulated ellipsometer, e.g. virtual:Cu, "
+        "virtual:Au-Johnson (drude materials lists the sets)\n");
+    for (const UsbDevice& device : listing.devices) {
+        if (device.family.name.empty() || device.problem.empty()) continue;
+        fmt::print(stderr, "warning: {:04x}:{:04x} on bus {:03}, device {:03}: {}\n", device.vendor,
+                   device.product, device.bus, device.address, device.problem);
+        if (device.permitted) continue;
+        fmt::print(stderr,
+                   "  To let the user at this machine open it, put this line into\n"
+                   "  /etc/udev/rules.d/70-drude.rules, then plug the device in again:\n"
+                   "    {}\n",
+                   udev_rule(device.vendor, device.product));
+    }
+}
+
+}  // namespace
+
+Command devices_command() {
+    Command command;
+    command.name = "devices";
+    command.summary = "List the instruments that are plugged in";
+    command.description =
+        "Lists USB devices that belong to an instrument family known here: Ocean Optics "
+        "spectrometers, Thorlabs rotation mounts (behind FTDI serial-port chips), and USBTMC "
+        "instruments. A device that this user may not open is named with the udev rule that "
+        "changes it. Devices are only asked for their names. The simulated ellipsometer "
+        "virtual:MATERIAL is always there.\n\n"
+        "A machine without USB is no error: the list is then empty.";
+    command.example =
+        "$ drude devices\n"
+        "usb 001:004  2457:1022  serial FLMT01234         Ocean Optics USB4000 / Flame-T "
+        "(spectrometer)\n"
+        "virtual:MATERIAL  always there: a simulated ellipsometer, ...\n";
+    command.declare = [](OptionSet& options, const CommonOptions& common) {
+        const auto values = std::make_shared<DevicesOptions>();
+        options.flag("--all", values->all, "list every USB device, hubs excepted");
+        return [values, &common] {
+            const UsbListing listing = list_usb_devices();
+            if (common.json) {
+                print_json(listing);
+            } else {
+                print_text(listing, values->all);
+            }
+            return 0;
+        };
+    };
+    return command;
+}
+
+}  // namespace drude

@@ -1,0 +1,47 @@
+// Is a difference between two noisy pictures more than their noise?
+//
+// B. L. Welch's test (Biometrika 34, 28, 1947) of equal means with unequal variances, once a pixel
+// and channel, once a block of 8x8 pixels and channel (more power against faint, extended
+// differences), once for the whole picture and channel. The three families share `alpha` by
+// Sidak's rule, and so do the tests within each, so that the probability of any false alarm in
+// the whole comparison is at most `alpha`. Pixels are taken as independent of each other: a
+// renderer with a filter wider than a pixel needs another test.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+
+namespace drude {
+
+// Name of the channel that holds the variance of the mean of channel `name`.
+std::string variance_name(const std::string& name);
+
+// Which of the `names` have no variance channel in `image`.
+std::vector<std::string> without_variance(const Image& image,
+                                          const std::vector<std::string>& names);
+
+struct NoiseTest {
+    // The smallest p-value of the comparison after both corrections, to be held against alpha.
+    double p_min = 1.0;
+    // The smallest of each family, corrected for the number of its own tests.
+    double p_pixels = 1.0, p_blocks = 1.0, p_global = 1.0;
+    // Share of pixels and channels whose own p-value is below alpha: about alpha for pictures that
+    // differ by noise only.
+    double outlier_fraction = 0.0;
+    // A difference of the mean over the picture, in the picture's unit, that this pair would have
+    // revealed with 95 % probability; the largest over the channels.
+    double smallest_detectable_bias = 0.0;
+    size_t tests = 0;
+};
+
+// Both images must have the channels, their variances and the attribute `batches` (at least 2);
+// sizes must agree. Throws Error (user), naming the files, where a variance is negative or not
+// finite, or `batches` is missing. Pixels that are not finite in one of the images count as
+// outliers with p = 0. Result does not depend on `threads`.
+NoiseTest noise_test(const Image& a, const Image& b, const std::vector<std::string>& channels,
+                     const std::string& name_a, const std::string& name_b, double alpha,
+                     int threads);
+
+}  // namespace drude

@@ -1,0 +1,29 @@
+// Finds and loads drude-oiio.so. OpenImageIO pulls in hundreds of libraries (0.4 s, 134 MB), so
+// only a command that meets a PNG, HDR, JPEG, ... pays for it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "image/oiio/oiio_module.h"
+
+namespace drude {
+
+struct OiioModule {
+    decltype(&drude_oiio_read) read = nullptr;
+    decltype(&drude_oiio_release) release = nullptr;
+    decltype(&drude_oiio_png) png = nullptr;
+};
+
+// Where the module is looked for, in this order: the folders of $DRUDE_MODULE_PATH (separated by
+// colons), the program's folder, lib/drude, lib/*/drude and lib64/drude beside the program's
+// folder, and the folder that the build was installed to.
+std::vector<std::string> oiio_module_candidates();
+
+// The loaded module; from any thread. Throws Error (outside) that names the places searched and
+// the Debian package of OpenImageIO where it is not there or does not load; a later call tries
+// again.
+const OiioModule& oiio_module();
+
+}  // namespace drude

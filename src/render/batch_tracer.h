@@ -1,0 +1,49 @@
+// One batch of samples of one pixel: what the driver asks of a transport and a packet width.
+#pragma once
+
+#include <memory>
+
+#include "render/geometry.h"
+#include "render/lights.h"
+#include "render/path.h"
+#include "render/pixel_filter.h"
+
+namespace drude {
+
+inline constexpr int spectral_bins = 40;  // of 10 nm
+
+// Means over the batch.
+struct BatchResult {
+    double rgb[4][3];                  // linear sRGB of S0..S3 (S0 alone unless `stokes`)
+    float spectral[4][spectral_bins];  // radiance of S0..S3 in W m^-2 sr^-1 nm^-1
+};
+
+struct BatchRequest {
+    int x = 0, y = 0;
+    uint32_t batch = 0;
+    int batch_size = 16;
+};
+
+class BatchTracer {
+  public:
+    virtual ~BatchTracer() = default;
+    // Fills rgb (and spectral, where the tracer carries all bins); adds to `statistics`.
+    virtual void trace(const BatchRequest& request, BatchResult* result,
+                       PathStatistics* statistics) const = 0;
+};
+
+struct TracerSetup {
+    const Scene& scene;
+    const Geometry& geometry;
+    const Lights& lights;
+    const CameraRays& camera;
+    const PixelFilter& filter;
+    uint64_t seed;
+    int max_depth;
+};
+
+// `wavelengths` is 8, 16 or spectral_bins.
+std::unique_ptr<BatchTracer> make_batch_tracer(Transport transport, int wavelengths,
+                                               const TracerSetup& setup);
+
+}  // namespace drude

@@ -1,0 +1,7 @@
+#include "render/batch_tracer_impl.h"
+
+namespace drude {
+
+template std::unique_ptr<BatchTracer> make_packet_tracer<Transport::stokes>(int, const TracerSetup&);
+
+}  // namespace drude

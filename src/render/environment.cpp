@@ -1,0 +1,181 @@
+#include "render/environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+#include "base/error.h"
+#include "materials/scalar.h"
+
+namespace drude {
+
+namespace {
+
+constexpr float pi_f = static_cast<float>(pi);
+
+// Clarberg's equal-area square, in the form of pbrt-v4's documentation of its light space.
+glm::vec3 equal_area_direction(glm::vec2 p) {
+    const float u = 2 * p.x - 1, v = 2 * p.y - 1;
+    const float au = std::abs(u), av = std::abs(v);
+    const float signed_distance = 1 - (au + av);
+    const float r = 1 - std::abs(signed_distance);
+    const float phi = (r == 0 ? 1 : (av - au) / r + 1) * pi_f / 4;
+    const float z = std::copysign(1 - r * r, signed_distance);
+    const float side = r * std::sqrt(std::max(0.0f, 2 - r * r));
+    return {std::copysign(std::cos(phi), u) * side, std::copysign(std::sin(phi), v) * side, z};
+}
+
+glm::vec2 equal_area_square(const glm::vec3& d) {
+    const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
+    const float r = std::sqrt(std::max(0.0f, 1 - z));
+    const float large = std::max(x, y), small = std::min(x, y);
+    float phi = large == 0 ? 0 : std::atan(small / large) * 2 / pi_f;
+    if (x < y) phi = 1 - phi;
+    float v = phi * r, u = r - v;
+    if (d.z < 0) {
+        std::swap(u, v);
+        u = 1 - u;
+        v = 1 - v;
+    }
+    return {(std::copysign(u, d.x) + 1) / 2, (std::copysign(v, d.y) + 1) / 2};
+}
+
+float luminance(const glm::vec3& rgb) {
+    return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
+}
+
+// The index i with cdf[i] <= u * total < cdf[i + 1] (cdf[0] = 0 left out) and where between.
+size_t find_interval(const float* cdf, size_t count, float u, float* inside) {
+    const float target = u * cdf[count - 1];
+    const float* above = std::upper_bound(cdf, cdf + count, target);
+    size_t i = std::min<size_t>(above - cdf, count - 1);
+    // Rounding may land on an interval of no width at the end; step back to one that has some.
+    while (i > 0 && cdf[i] == cdf[i - 1]) --i;
+    const float low = i > 0 ? cdf[i - 1] : 0;
+    *inside = std::clamp((target - low) / (cdf[i] - low), 0.0f, 0x1.fffffep-1f);
+    return i;
+}
+
+}  // namespace
+
+Environment::Environment(const Image& image, double scale, const glm::dmat4& world_from_light,
+                         const std::string& where)
+    : width_(image.width), height_(image.height) {
+    lat_long_ = width_ == 2 * height_;
+    if (!lat_long_ && width_ != height_) {
+        user_error(
+            "{}: the picture is {} x {}; an environment must be twice as wide as high (lat-long) "
+            "or square (equal-area)",
+            where, width_, height_);
+    }
+    const Channel* grey = image.find("Y");
+    const Channel& r = grey && !image.find("R") ? *grey : image.at("R", where);
+    const Channel& g = grey && !image.find("G") ? *grey : image.at("G", where);
+    const Channel& b = grey && !image.find("B") ? *grey : image.at("B", where);
+
+    world_from_light_ = glm::mat3(glm::dmat3(world_from_light));
+    for (int i = 0; i < 3; ++i) world_from_light_[i] = glm::normalize(world_from_light_[i]);
+    light_from_world_ = glm::inverse(world_from_light_);
+
+    texels_.resize(image.pixels());
+    std::vector<float> solid_angle_weight(static_cast<size_t>(height_), 1.0f);
+    if (lat_long_) {
+        for (int y = 0; y < height_; ++y) {
+            // The exact share of a row: the difference of cosines, not sin at its middle.
+            solid_angle_weight[y] = static_cast<float>(
+                (std::cos(pi * y / height_) - std::cos(pi * (y + 1) / height_)) * height_ / 2);
+        }
+    }
+    double total = 0;
+    for (size_t i = 0; i < texels_.size(); ++i) {
+        glm::vec3 rgb(r.data[i], g.data[i], b.data[i]);
+        bool repaired = false;
+        for (int c = 0; c < 3; ++c) {
+            if (!(rgb[c] >= 0) || !std::isfinite(rgb[c])) {
+                rgb[c] = 0;
+                repaired = true;
+            }
+        }
+        repaired_ += repaired;
+        texels_[i] = rgb * static_cast<float>(scale);
+        total += static_cast<double>(luminance(texels_[i])) *
+                 static_cast<double>(solid_angle_weight[i / width_]);
+    }
+    mean_luminance_ = total / static_cast<double>(texels_.size());
+    if (!(mean_luminance_ > 0)) user_error("{}: the picture is black everywhere", where);
+    if (!std::isfinite(mean_luminance_)) user_error("{}: the picture is too bright", where);
+
+    const auto build = [&](float threshold) {
+        weight_.assign(texels_.size(), 0);
+        column_cdf_.assign(texels_.size(), 0);
+        row_cdf_.assign(static_cast<size_t>(height_), 0);
+        double rows = 0;
+        for (int y = 0; y < height_; ++y) {
+            double row = 0;
+            for (int x = 0; x < width_; ++x) {
+                const size_t i = static_cast<size_t>(y) * width_ + x;
+                weight_[i] = std::max(0.0f, luminance(texels_[i]) - threshold);
+                row += static_cast<double>(weight_[i]);
+                column_cdf_[i] = static_cast<float>(row);
+            }
+            rows += row * static_cast<double>(solid_angle_weight[y]);
+            row_cdf_[y] = static_cast<float>(rows);
+        }
+        return rows;
+    };
+    double rows = build(static_cast<float>(mean_luminance_));
+    // A constant sky has nothing above its mean.
+    if (!(rows > 1e-6 * mean_luminance_ * static_cast<double>(texels_.size()))) rows = build(0);
+    const float normalise = static_cast<float>(static_cast<double>(texels_.size()) / rows);
+    for (float& w : weight_) w *= normalise;
+}
+
+size_t Environment::texel(const glm::vec3& d) const {
+    const glm::vec3 l = light_from_world_ * d;
+    glm::vec2 uv;
+    if (lat_long_) {
+        const float phi = std::atan2(l.y, l.x);
+        uv = {(phi < 0 ? phi + 2 * pi_f : phi) / (2 * pi_f),
+              std::atan2(std::sqrt(l.x * l.x + l.y * l.y), l.z) / pi_f};
+    } else {
+        uv = equal_area_square(l);
+    }
+    const int x = std::clamp(static_cast<int>(uv.x * static_cast<float>(width_)), 0, width_ - 1);
+    const int y = std::clamp(static_cast<int>(uv.y * static_cast<float>(height_)), 0, height_ - 1);
+    return static_cast<size_t>(y) * width_ + x;
+}
+
+// A texel of weight w (1 on average over the sphere) is chosen in proportion to w times its solid
+// angle, and uniformly in solid angle within, so the density over directions is w / 4 pi.
+float Environment::pdf(const glm::vec3& d) const { return weight_[texel(d)] / (4 * pi_f); }
+
+Environment::Sample Environment::sample(const glm::vec2& u) const {
+    float inside_x = 0, inside_y = 0;
+    const size_t y = find_interval(row_cdf_.data(), row_cdf_.size(), u.y, &inside_y);
+    const size_t x =
+        find_interval(&column_cdf_[y * width_], static_cast<size_t>(width_), u.x, &inside_x);
+    const float fx = (static_cast<float>(x) + inside_x) / static_cast<float>(width_);
+    glm::vec3 l;
+    if (lat_long_) {
+        const float phi = 2 * pi_f * fx;
+        const float top = std::cos(pi_f * static_cast<float>(y) / static_cast<float>(height_));
+        const float bottom =
+            std::cos(pi_f * static_cast<float>(y + 1) / static_cast<float>(height_));
+        const float z = top + inside_y * (bottom - top);
+        const float r = std::sqrt(std::max(0.0f, 1 - z * z));
+        l = {r * std::cos(phi), r * std::sin(phi), z};
+    } else {
+        l = equal_area_direction(
+            {fx, (static_cast<float>(y) + inside_y) / static_cast<float>(height_)});
+    }
+    Sample s;
+    s.d = glm::normalize(world_from_light_ * l);
+    const size_t index = y * static_cast<size_t>(width_) + x;
+    s.radiance = texels_[index];
+    s.pdf = weight_[index] / (4 * pi_f);
+    return s;
+}
+
+}  // namespace drude

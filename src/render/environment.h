@@ -1,0 +1,58 @@
+// An image around the scene: lookup, importance sampling, density.
+//
+// Two layouts. Lat-long (width = 2 height): light-space direction
+// (sin t cos p, sin t sin p, cos t), t = pi (y + 1/2)/height, p = 2 pi (x + 1/2)/width, z up.
+// Equal-area octahedral (square; Clarberg 2008, JGT 13(1)), as pbrt-v4 wants it. The radiance of a
+// texel is constant over it, so that sampling by it leaves no noise of its own.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+
+namespace drude {
+
+class Environment {
+  public:
+    // Channels R, G, B (or Y) of `image`, times `scale`. Negative and non-finite texels become 0
+    // and are counted. Throws Error (user), naming `where`, unless the picture is 2:1 or square,
+    // has colour and is not black all over.
+    Environment(const Image& image, double scale, const glm::dmat4& world_from_light,
+                const std::string& where);
+
+    // Linear RGB radiance that arrives from world direction d (unit, away from the viewer).
+    glm::vec3 radiance(const glm::vec3& d) const { return texels_[texel(d)]; }
+
+    struct Sample {
+        glm::vec3 d;         // world direction towards the light
+        glm::vec3 radiance;  // linear RGB
+        float pdf = 0;       // per solid angle
+    };
+    // Sampled in proportion to luminance less its mean (MIS compensation: Karlik et al. 2019, ACM
+    // TOG 38(6)): what lobe sampling finds by itself is left to it. Uniform numbers in [0, 1).
+    Sample sample(const glm::vec2& u) const;
+    // The density of sample(), 0 where it never goes.
+    float pdf(const glm::vec3& d) const;
+
+    int repaired_texels() const { return repaired_; }
+    double mean_luminance() const { return mean_luminance_; }
+
+  private:
+    size_t texel(const glm::vec3& d) const;
+
+    bool lat_long_;
+    int width_, height_;
+    glm::mat3 light_from_world_, world_from_light_;
+    std::vector<glm::vec3> texels_;
+    // Cumulative weights: of the rows, and within each row; the last of each is its total.
+    std::vector<float> row_cdf_, column_cdf_;
+    std::vector<float> weight_;  // density of a texel over the unit square
+    int repaired_ = 0;
+    double mean_luminance_ = 0;
+};
+
+}  // namespace drude

@@ -1,0 +1,70 @@
+// Choosing a light and a direction towards it, and the density of that choice.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/environment.h"
+#include "render/geometry.h"
+#include "scene/scene.h"
+
+namespace drude {
+
+// Emitters are whole infinite and distant lights, and single triangles and spheres of area lights.
+// One is picked in proportion to an estimate of the power it sends to the scene.
+class Lights {
+  public:
+    // Reads the environments' pictures. `scene` and `geometry` must outlive it.
+    Lights(const Scene& scene, const Geometry& geometry);
+
+    enum class Kind { environment, constant, distant, area };
+
+    struct Sample {
+        Kind kind = Kind::constant;
+        int light = -1;           // index in the scene's list of that kind
+        glm::vec3 d{0};           // towards the light, unit
+        float distance = 0;       // infinite for lights without a place
+        float pdf = 0;            // per solid angle, choice of the light included; 0: no sample
+        bool is_delta = false;    // no lobe sample ever finds it; pdf is then the choice's alone
+        glm::vec3 rgb{0};         // radiance from an environment's picture
+    };
+    // `at` is where the light is wanted; u_choice, u uniform in [0, 1).
+    Sample sample(const glm::vec3& at, float u_choice, const glm::vec2& u) const;
+
+    bool empty() const { return emitters_.empty(); }
+
+    struct Infinite {
+        std::unique_ptr<Environment> environment;  // null: constant
+        float choice = 0;                          // probability of being picked
+    };
+    const std::vector<Infinite>& infinite() const { return infinite_; }
+    // The density of sample() towards d for an infinite light.
+    float infinite_pdf(size_t light, const glm::vec3& d) const;
+    // The density of sample() for a hit on an area light, seen from `distance` along d.
+    float area_pdf(const Hit& hit, const glm::vec3& d, float distance) const;
+
+    const std::vector<std::string>& warnings() const { return warnings_; }
+
+  private:
+    struct Emitter {
+        Kind kind;
+        int index;  // of the light (infinite, distant) or of the shape (area)
+        unsigned primitive = 0;
+        float area = 0;
+    };
+    void add(const Emitter& emitter, double power);
+
+    const Scene& scene_;
+    const Geometry& geometry_;
+    std::vector<Infinite> infinite_;
+    std::vector<Emitter> emitters_;
+    std::vector<double> power_;
+    std::vector<float> cdf_;             // cumulative probability of the emitters
+    std::vector<int> first_of_shape_;    // emitter of a shape's first primitive, or -1
+    std::vector<std::string> warnings_;
+};
+
+}  // namespace drude

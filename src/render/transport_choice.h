@@ -1,0 +1,25 @@
+// Which transport a scene needs: the cheapest that is provably exact.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "render/throughput.h"
+#include "scene/scene.h"
+
+namespace drude {
+
+struct TransportChoice {
+    Transport transport = Transport::intensity;
+    std::string reason;
+};
+
+// For pictures of S0 alone. `scalar` is exact where no path meets two polarising surfaces without
+// a perfect depolariser between: at most one reflection, no metal at all, or a single metal that
+// is only ever seen from its convex side.
+TransportChoice cheapest_exact_transport(const Scene& scene, int max_depth);
+
+// "scalar", "intensity", "stokes".
+std::string_view transport_name(Transport transport);
+
+}  // namespace drude

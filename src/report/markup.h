@@ -1,0 +1,19 @@
+// Text and bytes made safe for SVG and HTML.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace drude {
+
+// `text` for element content and quoted attributes of XML and HTML: & < > " ' become references;
+// what neither may hold (control characters, bytes that are not UTF-8) becomes U+FFFD.
+std::string escape_markup(std::string_view text);
+
+// RFC 4648 base64 with padding, no line breaks.
+std::string base64(std::string_view bytes);
+
+// "a-z0-9-" only, for ids: "Cu, 45°" becomes "cu-45"; never empty.
+std::string identifier(std::string_view text);
+
+}  // namespace drude

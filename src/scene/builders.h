@@ -1,0 +1,95 @@
+// From a directive's parameters to a piece of the scene, one function a concept.
+//
+// Every function reads what it understands of `list`, gives what pbrt-v4 knows beyond that a
+// message, and throws Error (user) with its place for anything else. Adding a shape, a material, a
+// light, a camera or a filter means a function in its own file and its line in the switch of its
+// kind.
+#pragma once
+
+#include <functional>
+#include <glm/mat4x4.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "scene/assets.h"
+#include "scene/messages.h"
+#include "scene/parameters.h"
+#include "scene/scene.h"
+
+namespace drude {
+
+// Named textures. Until textures are drawn each has one value everywhere.
+struct Textures {
+    std::map<std::string, double, std::less<>> numbers;
+    std::map<std::string, DenseSpectrum, std::less<>> spectra;
+};
+
+struct BuildContext {
+    Assets& assets;
+    Messages& messages;
+    Textures& textures;
+};
+
+// ---- settings ----------------------------------------------------------------------------------
+
+Film build_film(const std::string& name, ParameterList& list, Messages& messages);
+// `camera_from_world` is the current transformation at the Camera directive.
+Camera build_camera(const std::string& name, ParameterList& list,
+                    const glm::dmat4& camera_from_world, const Film& film, Messages& messages);
+Filter build_filter(const std::string& name, ParameterList& list, Messages& messages);
+void build_sampler(const std::string& name, ParameterList& list, Messages& messages, Scene& scene);
+void build_integrator(const std::string& name, ParameterList& list, Messages& messages,
+                      Scene& scene);
+
+// ---- shapes ------------------------------------------------------------------------------------
+
+using Geometry = std::variant<Sphere, TriangleMesh>;
+
+// Nothing where the shape is one that pbrt-v4 knows and this renderer leaves out.
+std::optional<Geometry> build_shape(const std::string& name, ParameterList& list,
+                                    BuildContext& context);
+Sphere build_sphere(ParameterList& list);
+TriangleMesh build_disk(ParameterList& list, Messages& messages);
+TriangleMesh build_cylinder(ParameterList& list, Messages& messages);
+TriangleMesh build_triangle_mesh(ParameterList& list, Messages& messages);
+TriangleMesh build_bilinear_mesh(ParameterList& list, Messages& messages);
+TriangleMesh build_ply_mesh(ParameterList& list, BuildContext& context);
+// Drops triangles without area and gives normals of length 0 a direction; Error (user) where no
+// triangle is left.
+void tidy_mesh(TriangleMesh& mesh, const std::string& owner, const Place& place,
+               Messages& messages);
+// In world space.
+double surface_area(const Geometry& geometry, const glm::dmat4& world_from_object);
+
+// ---- materials, textures -----------------------------------------------------------------------
+
+// Nothing for "interface" (and ""): a surface that is not there.
+std::optional<SurfaceMaterial> build_material(const std::string& name, ParameterList& list,
+                                              BuildContext& context);
+// `prefix` is "conductor." for the metal under a coat, otherwise "".
+ConductorMaterial build_conductor(ParameterList& list, const std::string& prefix,
+                                  BuildContext& context);
+// `is_spectrum` tells the two kinds, "spectrum" and "float", apart. Enters the texture under
+// `name`.
+void build_texture(const std::string& name, bool is_spectrum, const std::string& type,
+                   ParameterList& list, BuildContext& context);
+
+// ---- lights ------------------------------------------------------------------------------------
+
+// Appends to the scene's lights.
+void build_light(const std::string& name, ParameterList& list, const glm::dmat4& world_from_light,
+                 BuildContext& context, Scene& scene);
+
+// What an AreaLightSource says before it meets its shape.
+struct AreaLightRecipe {
+    AreaLight light;
+    double power = 0;  // > 0: the radiance follows from the shape's area
+};
+AreaLightRecipe build_area_light(const std::string& name, ParameterList& list,
+                                 BuildContext& context);
+// The light of a shape of this area (world space).
+AreaLight area_light_on(const AreaLightRecipe& recipe, double area);
+
+}  // namespace drude

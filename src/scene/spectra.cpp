@@ -1,0 +1,157 @@
+#include "scene/spectra.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/numbers.h"
+
+namespace drude {
+
+namespace {
+
+// Outside its table a spectrum keeps its end values (pbrt-v4 has 0 there); said where it matters.
+void note_range(const SampledTable& table, const Place& place, Messages& messages) {
+    const bool short_below =
+        table.wavelength_nm.front() > spectrum_first_nm && table.values.front() != 0;
+    const bool short_above =
+        table.wavelength_nm.back() < spectrum_last_nm && table.values.back() != 0;
+    if (!short_below && !short_above) return;
+    messages.note(place, fmt::format("the spectrum {} covers {} to {} nm of {} to {} nm; its end "
+                                     "values are held outside",
+                                     table.name, format_double(table.wavelength_nm.front()),
+                                     format_double(table.wavelength_nm.back()), spectrum_first_nm,
+                                     spectrum_last_nm));
+}
+
+DenseSpectrum scaled(DenseSpectrum spectrum, double factor) {
+    for (double& value : spectrum) value *= factor;
+    return spectrum;
+}
+
+DenseSpectrum blackbody_of(const Parameter& parameter) {
+    const double kelvin = parameter.numbers[0];
+    if (!(kelvin >= 100 && kelvin <= 1e6)) {
+        user_error_at(parameter.place_of(0), "blackbody of {} K; expected 100 to 1000000",
+                      format_double(kelvin));
+    }
+    return blackbody(kelvin);
+}
+
+RGB rgb_of(const Parameter& parameter) {
+    if (parameter.numbers.size() != 3) {
+        user_error_at(parameter.place_of(3), "\"rgb {}\" has {} values; expected 3", parameter.name,
+                      parameter.numbers.size());
+    }
+    return {parameter.numbers[0], parameter.numbers[1], parameter.numbers[2]};
+}
+
+}  // namespace
+
+DenseSpectrum matter_spectrum(const Parameter& parameter, BuildContext& context) {
+    switch (parameter.type) {
+        case ParameterType::rgb:
+            return rgb_reflectance(rgb_of(parameter));
+        case ParameterType::blackbody:
+            return blackbody_of(parameter);
+        case ParameterType::texture: {
+            const auto found = context.textures.spectra.find(parameter.strings[0]);
+            if (found != context.textures.spectra.end()) return found->second;
+            std::vector<std::string> names;
+            for (const auto& entry : context.textures.spectra) names.push_back(entry.first);
+            user_error_at(parameter.place_of(0),
+                          "there is no spectrum texture '{}'{}; expected "
+                          "one that is defined before",
+                          shown(parameter.strings[0]), did_you_mean(parameter.strings[0], names));
+        }
+        default: {
+            const SampledTable table = sampled_table(parameter, context);
+            note_range(table, parameter.place, context.messages);
+            return resample(table.wavelength_nm, table.values);
+        }
+    }
+}
+
+DenseSpectrum reflectance(ParameterList& list, const std::string& name, double otherwise,
+                          BuildContext& context) {
+    const Parameter* parameter =
+        list.any_of(name, {ParameterType::rgb, ParameterType::spectrum, ParameterType::texture});
+    if (parameter == nullptr) return constant_spectrum(otherwise);
+    if (parameter->type == ParameterType::rgb) {
+        const RGB rgb = rgb_of(*parameter);
+        for (size_t i = 0; i < 3; ++i) {
+            if (!(rgb[i] >= 0 && rgb[i] <= 1)) {
+                user_error_at(parameter->place_of(i), "{}: {} is {}; expected 0 to 1", list.owner(),
+                              name, format_double(rgb[i]));
+            }
+        }
+    }
+    DenseSpectrum spectrum = matter_spectrum(*parameter, context);
+    for (double& value : spectrum) {
+        // The bases sum to 1 up to rounding only.
+        if (!(value >= -1e-6 && value <= 1 + 1e-6)) {
+            user_error_at(parameter->place, "{}: {} reaches {}; expected 0 to 1", list.owner(),
+                          name, format_double(value));
+        }
+        value = std::clamp(value, 0.0, 1.0);
+    }
+    return spectrum;
+}
+
+DenseSpectrum light_spectrum(ParameterList& list, const std::string& name, BuildContext& context) {
+    const Parameter* parameter =
+        list.any_of(name, {ParameterType::rgb, ParameterType::blackbody, ParameterType::spectrum});
+    if (parameter == nullptr) return rgb_illuminant({1, 1, 1});
+    if (parameter->type == ParameterType::rgb) {
+        const RGB rgb = rgb_of(*parameter);
+        for (size_t i = 0; i < 3; ++i) {
+            if (!(rgb[i] >= 0 && rgb[i] < 1e15)) {
+                user_error_at(parameter->place_of(i), "{}: {} is {}; expected 0 or more",
+                              list.owner(), name, format_double(rgb[i]));
+            }
+        }
+        return rgb_illuminant(rgb);
+    }
+    DenseSpectrum spectrum;
+    bool is_dark = false;
+    if (parameter->type == ParameterType::spectrum) {
+        const SampledTable table = sampled_table(*parameter, context);
+        note_range(table, parameter->place, context.messages);
+        spectrum = resample(table.wavelength_nm, table.values);
+        // Of the table, so that a lamp with all its light outside the grid is not taken for off.
+        is_dark = std::all_of(table.values.begin(), table.values.end(),
+                              [](double value) { return value == 0; });
+    } else {
+        spectrum = blackbody_of(*parameter);
+    }
+    if (is_dark) return spectrum;
+    const auto [lowest, highest] = std::minmax_element(spectrum.begin(), spectrum.end());
+    if (*lowest < 0) {
+        user_error_at(parameter->place, "{}: {} reaches {}; expected 0 or more", list.owner(), name,
+                      format_double(*lowest));
+    }
+    const double luminance = spectrum_to_xyz(spectrum)[1];
+    if (!(luminance > 1e-12 * *highest) || !std::isfinite(luminance)) {
+        user_error_at(
+            parameter->place,
+            "{}: {} has no luminance, so it cannot be given Y = 1; expected light between "
+            "{} and {} nm",
+            list.owner(), name, spectrum_first_nm, spectrum_last_nm);
+    }
+    return scaled(spectrum, 1 / luminance);
+}
+
+double number_or_texture(ParameterList& list, const std::string& name, double otherwise,
+                         BuildContext& context) {
+    const Parameter* parameter = list.any_of(name, {ParameterType::number, ParameterType::texture});
+    if (parameter == nullptr) return otherwise;
+    if (parameter->type == ParameterType::number) return list.number(name, otherwise);
+    const auto found = context.textures.numbers.find(parameter->strings[0]);
+    if (found != context.textures.numbers.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& entry : context.textures.numbers) names.push_back(entry.first);
+    user_error_at(parameter->place_of(0),
+                  "there is no float texture '{}'{}; expected one that is defined before",
+                  shown(parameter->strings[0]), did_you_mean(parameter->strings[0], names));
+}
+
+}  // namespace drude
