@@ -55,10 +55,12 @@ build_in() {
     done
     shift
     (($# > 0)) && targets=(--target "$@")
-    cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-        -DDRUDE_ISA="${DRUDE_ISA:-native}" "${options[@]}" > "$root/build.log" 2>&1 || {
-        cat "$root/build.log" >&2
+    local log=$root/build/configure.log
+    mkdir -p "$root/build"
+    if ! cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+        -DDRUDE_ISA="${DRUDE_ISA:-native}" "${options[@]}" > "$log" 2>&1; then
+        cat "$log" >&2
         return 3
-    }
+    fi
     cmake --build "$root/build" "${targets[@]}" >&2
 }

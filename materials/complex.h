@@ -37,8 +37,8 @@ Complex<T> conj(const Complex<T>& a) {
 }
 
 // The square root in the first quadrant of a number with im >= 0: the larger of its parts from
-// (|a| + |re a|)/2, the other by division, so that nothing cancels. The 1e-36
-// keeps derivatives finite at 0, whose root comes out as 7e-10.
+// (|a| + |re a|)/2, the other by division, so that nothing cancels. The 1e-36 keeps
+// derivatives finite at 0, whose root comes out as 7e-10.
 template <class T>
 Complex<T> sqrt_first_quadrant(const Complex<T>& a) {
     using std::sqrt;

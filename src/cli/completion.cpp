@@ -12,6 +12,7 @@ namespace {
 
 std::vector<std::string> command_names(const std::vector<Command>& commands) {
     std::vector<std::string> names;
+    names.reserve(commands.size());
     for (const Command& command : commands) names.push_back(command.name);
     return names;
 }

@@ -67,7 +67,11 @@ void build_infinite(ParameterList& list, const glm::dmat4& world_from_light, Bui
         light.image = context.assets.find(name, place.file, place, "environment image");
         context.assets.count(light.image, place);
         light.radiance = constant_spectrum(0);
-        if (illuminance > 0) light.illuminance = illuminance;
+        if (illuminance > 0) {
+            context.messages.stand_in(list.place_of("illuminance"),
+                                      "LightSource \"infinite\": the illuminance of an image is "
+                                      "not modelled; its scale stands as it is");
+        }
     } else {
         // Constant radiance L gives the patch pi L.
         if (illuminance > 0) light.scale *= illuminance / std::numbers::pi;

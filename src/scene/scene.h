@@ -77,9 +77,6 @@ struct InfiniteLight {
     std::shared_ptr<const Image> picture;
     DenseSpectrum radiance;  // of a constant light, scale included
     double scale = 1;        // of an image
-    // Of an image: its scale is to be multiplied so that the half with z > 0 in light space gives a
-    // patch facing +z this illuminance (Y of spectrum_to_xyz); 0: the scale is final.
-    double illuminance = 0;
     Place place;
 };
 

@@ -13,7 +13,7 @@ namespace {
 using numeric::integrate;
 using numeric::integrate_plane;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double log2_e = 0.69314718055994530942;  // ln 2
+constexpr double ln2 = 0.69314718055994530942;
 
 const std::vector<Lobe> lobes = {Lobe::blinn_phong, Lobe::gaussian, Lobe::beckmann,
                                  Lobe::trowbridge_reitz};
@@ -94,20 +94,20 @@ TEST(Lobe, BetaOfBeckmannIsTheRmsSlope) {
 TEST(Lobe, NarrowLobesHaveTheirLimits) {
     for (const double beta : {1e-5, 1e-4, 1e-3}) {
         const double b2 = beta * beta, loose = 3 * b2 + 1e-12;
-        EXPECT_NEAR(D0(Lobe::blinn_phong, beta) * b2 * pi / log2_e, 1, loose);
-        EXPECT_NEAR(D0(Lobe::gaussian, beta) * b2 * pi / log2_e, 1, loose);
+        EXPECT_NEAR(D0(Lobe::blinn_phong, beta) * b2 * pi / ln2, 1, loose);
+        EXPECT_NEAR(D0(Lobe::gaussian, beta) * b2 * pi / ln2, 1, loose);
         EXPECT_NEAR(D0(Lobe::beckmann, beta) * b2 * pi, 1, loose);
         EXPECT_NEAR(D0(Lobe::trowbridge_reitz, beta) * b2 * pi / (std::sqrt(2.0) - 1), 1, loose);
     }
     // The study's own number: pbrt-v2's exponent 10000 (conventions.md).
     EXPECT_NEAR(blinn_phong_exponent(0.011774), 10000, 1);
-    EXPECT_NEAR(blinn_phong_exponent(0.5), -log2_e / std::log(std::cos(0.5)), 1e-12);
+    EXPECT_NEAR(blinn_phong_exponent(0.5), -ln2 / std::log(std::cos(0.5)), 1e-12);
 }
 
 // The closed form of conventions.md, by the error function of a complex argument.
 TEST(Lobe, GaussianNormIsTheClosedForm) {
     for (const double beta : {0.01, 0.03, 0.1, 0.3, 0.6, 1.0, 1.2}) {
-        const double g = std::sqrt(log2_e) / beta;
+        const double g = std::sqrt(ln2) / beta;
         const std::complex<double> i(0, 1);
         const double norm = pi * (std::sqrt(pi) / (2 * g) * std::exp(-1 / (g * g)) *
                                   (numeric::erf(g * pi / 2 - i / g) + numeric::erf(i / g)))
@@ -120,7 +120,7 @@ TEST(Lobe, ShapesAreThoseOfTheConventions) {
     for (const double beta : {0.01, 0.3, 1.2}) {
         for (const double alpha : {0.0, 0.3 * beta, beta, 1.25 * beta}) {
             const double c = std::cos(alpha), t = std::tan(alpha), b2 = beta * beta;
-            const double e = -log2_e / std::log(std::cos(beta)), g = std::sqrt(log2_e) / beta;
+            const double e = -ln2 / std::log(std::cos(beta)), g = std::sqrt(ln2) / beta;
             const double c2 =
                 std::pow(std::sin(beta), 2) / (std::sqrt(2.0) - std::pow(std::cos(beta), 2));
             const double expected[] = {std::pow(c, e), std::exp(-std::pow(g * alpha, 2)),
@@ -288,6 +288,27 @@ TEST(Microfacets, MaskingIsSymmetricAndBelowBothShares) {
     }
 }
 
+// What both directions see: of a groove the less open wall decides; with Smith's correlated heights
+// 1/G2 = 1/G1(o) + 1/G1(i) - 1 (Heitz 2014, eq. 99 over eq. 43).
+TEST(Microfacets, JointMaskingFromTheSingleOnes) {
+    numeric::Uniform u(11);
+    for (const Rough& surface : surfaces({0.03, 0.3, 1.2})) {
+        const bool groove = surface.microfacets.masking() == Masking::v_groove;
+        for (int n = 0; n < 500; ++n) {
+            const auto random = [&] {
+                const double z = u.between(0.01, 1), phi = u.between(0, 2 * pi);
+                const double r = std::sqrt(1 - z * z);
+                return Vec3<double>(r * std::cos(phi), r * std::sin(phi), z);
+            };
+            const Vec3<double> o = random(), i = random(), m = glm::normalize(o + i);
+            const double a = surface.microfacets.G1(o, m), b = surface.microfacets.G1(i, m);
+            EXPECT_NEAR(surface.microfacets.G2(o, i, m),
+                        groove ? std::min(a, b) : 1 / (1 / a + 1 / b - 1), 1e-13)
+                << surface.name;
+        }
+    }
+}
+
 // Smith's closed forms against his integral: Lambda(theta) = (1/cot) int_cot^inf (p - cot) P(p) dp,
 // P the distribution of slopes along o (Heitz 2014, eq. 69).
 TEST(Microfacets, SmithsLambdaIsHisIntegral) {
@@ -315,7 +336,6 @@ TEST(Microfacets, SmithsLambdaIsHisIntegral) {
 // cos over the directions i above the surface, in slopes a disc (p + tan)^2 + q^2 < sec^2.
 TEST(Microfacets, ReflectNoMoreThanArrives) {
     for (const Rough& surface : surfaces(betas)) {
-        double before = 2;
         for (const double degrees : {0.0, 30.0, 60.0, 80.0, 89.0, 89.9}) {
             const double theta = degrees * pi / 180, tan = std::tan(theta),
                          sec = 1 / std::cos(theta);
@@ -343,9 +363,7 @@ TEST(Microfacets, ReflectNoMoreThanArrives) {
                 // A Trowbridge-Reitz lobe's tail reaches the horizon however narrow it is.
                 EXPECT_NEAR(albedo, 1, 1e-3) << surface.name;
             }
-            before = albedo;
         }
-        EXPECT_LT(before, 1 + 1e-7);
     }
 }
 

@@ -53,7 +53,7 @@ TEST(SceneErrors, Parameters) {
                           "expected an integer");
     EXPECT_PLACE_AND_TEXT(error_of("Film \"rgb\" \"integer xresolution\" 99999999999"),
                           "t.pbrt:1:34", "32 bits");
-    EXPECT_PLACE_AND_TEXT(error_of("Film \"rgb\" \"bool savefp16\" 1"), "t.pbrt:1:27",
+    EXPECT_PLACE_AND_TEXT(error_of("Film \"rgb\" \"bool savefp16\" 1"), "t.pbrt:1:28",
                           "true or false");
     EXPECT_PLACE_AND_TEXT(error_of("Film \"rgb\" \"string filename\" x"), "t.pbrt:1:30",
                           "a string in quotes");
@@ -93,7 +93,7 @@ TEST(SceneErrors, MaterialsAndLights) {
     EXPECT_PLACE_AND_TEXT(world_error_of("Material \"diffuse\" \"texture reflectance\" \"a\""),
                           "t.pbrt:2:42", "no spectrum texture 'a'");
     EXPECT_PLACE_AND_TEXT(world_error_of("Material \"conductor\" \"spectrum eta\" [ 500 1 400 1 ]"),
-                          "t.pbrt:2:46", "ascending");
+                          "t.pbrt:2:45", "ascending");
     EXPECT_PLACE_AND_TEXT(world_error_of("Material \"conductor\" \"spectrum eta\" [ 500 ]"),
                           "t.pbrt:2:22", "pairs");
     EXPECT_PLACE_AND_TEXT(

@@ -73,7 +73,7 @@ TEST(Grammar, SettingsAreRead) {
     EXPECT_EQ(scene.filter.c, 1.0 / 3);
     EXPECT_EQ(scene.max_depth, 33);
     EXPECT_EQ(scene.camera.screen_window[2], -3);
-    EXPECT_TRUE(warns(scene, "t.pbrt:8:67: Camera \"perspective\": lensradius is not modelled"));
+    EXPECT_TRUE(warns(scene, "t.pbrt:8:57: Camera \"perspective\": lensradius is not modelled"));
     EXPECT_TRUE(warns(scene, "'savefp16' is known to pbrt-v4 and has no effect"));
     EXPECT_TRUE(warns(scene, "Sampler \"stratified\": the project's own"));
     EXPECT_EQ(scene.stand_ins.size(), 2u);

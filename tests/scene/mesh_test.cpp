@@ -140,15 +140,15 @@ TEST(Ply, ErrorsHaveTheirPlace) {
     // A count that the file cannot hold claims no memory.
     EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "vertex 4", "vertex 4000000000000")), "m.ply:4",
                           "count that the file can hold");
-    EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "4 0 1 2 3", "4000 1 2 3")), "m.ply:23",
+    EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "4 0 1 2 3", "4000 1 2 3")), "m.ply:24",
                           "a list of 4000");
-    EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "4 0 1 2 3", "4 0 1 2 4")), "m.ply:23",
+    EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "4 0 1 2 3", "4 0 1 2 4")), "m.ply:24",
                           "index 4; expected 0 to 3");
-    EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "4 0 1 2 3", "4 0 1 2 -1")), "m.ply:23",
+    EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "4 0 1 2 3", "4 0 1 2 -1")), "m.ply:24",
                           "index -1");
-    EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "1 1 0 255", "1 nan 0 255")), "m.ply:21",
+    EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "1 1 0 255", "1 nan 0 255")), "m.ply:22",
                           "found nan");
-    EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "1 1 0 255", "1 x 0 255")), "m.ply:21",
+    EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "1 1 0 255", "1 x 0 255")), "m.ply:22",
                           "found 'x'");
     EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "double y", "double yy")), "m.ply:4",
                           "without x, y and z");
