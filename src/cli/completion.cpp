@@ -74,7 +74,7 @@ std::string bash_completion(const std::vector<Command>& commands) {
 Command completion_command(const std::vector<Command>& commands) {
     Command completion;
     completion.name = "completion";
-    completion.summary = "Print a completion script for the shell.";
+    completion.summary = "Print a completion script for the shell";
     completion.description =
         "The script completes commands, options and the values of options that take one of a few. "
         "It is generated from the options the commands declare.";

@@ -190,7 +190,7 @@ std::string overview_page(const std::vector<Command>& commands) {
 Command help_command(const std::vector<Command>& commands) {
     Command help;
     help.name = "help";
-    help.summary = "Explain a command, with a worked example.";
+    help.summary = "Explain a command, with a worked example";
     help.description =
         "Without a word, lists the commands. With --man, prints the manual page in the man macros "
         "of roff; with --json, every command with all its options.";
@@ -230,7 +230,7 @@ Command help_command(const std::vector<Command>& commands) {
 Command version_command() {
     Command version;
     version.name = "version";
-    version.summary = "Print the version and the instruction set it was built for.";
+    version.summary = "Print the version and the instruction set it is built for";
     version.description = "'drude --version' is the same.";
     version.example = "drude --version";
     version.declare = [](OptionSet&, const CommonOptions& common) {

@@ -67,7 +67,8 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
     }
     if (!options.resolution.empty()) set_resolution(options.resolution, &scene.film);
     if (given.given("--max-depth")) {
-        if (options.max_depth < 0) user_error("--max-depth {}: expected 0 or more", options.max_depth);
+        if (options.max_depth < 0)
+            user_error("--max-depth {}: expected 0 or more", options.max_depth);
         scene.max_depth = options.max_depth;
     }
     if (options.dry_run) {
@@ -115,10 +116,9 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
         fmt::print("{}\n", json.dump(2));
     } else {
         fmt::print("{}: {} samples a pixel, {:.3g} million rays in {:.2f} s on {} threads\n",
-                   options.output, result.samples_per_pixel,
-                   static_cast<double>(result.rays) / 1e6, result.render_seconds, threads);
-        fmt::print("transport {}: {}\n", transport_name(result.transport),
-                   result.transport_reason);
+                   options.output, result.samples_per_pixel, static_cast<double>(result.rays) / 1e6,
+                   result.render_seconds, threads);
+        fmt::print("transport {}: {}\n", transport_name(result.transport), result.transport_reason);
     }
     if (result.interrupted) {
         fmt::print(stderr, "drude: interrupted; {} holds the {} samples a pixel that were done\n",

@@ -45,8 +45,8 @@ nlohmann::json to_json(const StudyOptions& options, const StudyResult& result) {
 }
 
 void print(const StudyOptions& options, const StudyResult& result) {
-    fmt::print("{:<14}{:<16}{:<18}{:>10}{:>9}{:>9}{:>14}\n", "metal", "virtual sample", "literature",
-               "chi2/dof", "rms dn", "rms dk", "log10 |diff|");
+    fmt::print("{:<14}{:<16}{:<18}{:>10}{:>9}{:>9}{:>14}\n", "metal", "virtual sample",
+               "literature", "chi2/dof", "rms dn", "rms dk", "log10 |diff|");
     for (const StudyMetal& metal : result.metals) {
         fmt::print("{:<14}{:<16}{:<18}{:>10.3f}{:>9.4f}{:>9.4f}{:>14.3f}\n", metal.name,
                    metal.sample_set, metal.literature_set, metal.reduced_chi2, metal.rms_dn,

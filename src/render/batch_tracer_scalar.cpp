@@ -2,6 +2,7 @@
 
 namespace drude {
 
-template std::unique_ptr<BatchTracer> make_packet_tracer<Transport::scalar>(int, const TracerSetup&);
+template std::unique_ptr<BatchTracer> make_packet_tracer<Transport::scalar>(int,
+                                                                            const TracerSetup&);
 
 }  // namespace drude

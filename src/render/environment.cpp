@@ -149,7 +149,9 @@ size_t Environment::texel(const glm::vec3& d) const {
 
 // A texel of weight w (1 on average over the sphere) is chosen in proportion to w times its solid
 // angle, and uniformly in solid angle within, so the density over directions is w / 4 pi.
-float Environment::pdf(const glm::vec3& d) const { return weight_[texel(d)] / (4 * pi_f); }
+float Environment::pdf(const glm::vec3& d) const {
+    return weight_[texel(d)] / (4 * pi_f);
+}
 
 Environment::Sample Environment::sample(const glm::vec2& u) const {
     float inside_x = 0, inside_y = 0;

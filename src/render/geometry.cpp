@@ -26,7 +26,9 @@ struct WorldSphere {
     bool flip;
 };
 
-bool mirrors(const glm::dmat4& m) { return glm::determinant(glm::dmat3(m)) < 0; }
+bool mirrors(const glm::dmat4& m) {
+    return glm::determinant(glm::dmat3(m)) < 0;
+}
 
 }  // namespace
 
@@ -34,7 +36,7 @@ struct Geometry::Impl {
     const Scene* scene;
     RTCDevice device = nullptr;
     RTCScene embree = nullptr;
-    std::vector<WorldMesh> meshes;    // geometry id = index
+    std::vector<WorldMesh> meshes;     // geometry id = index
     std::vector<WorldSphere> spheres;  // one user geometry, primitive id = index
     unsigned sphere_geometry = RTC_INVALID_GEOMETRY_ID;
     std::vector<int> mesh_of_shape;
@@ -217,8 +219,8 @@ bool Geometry::intersect(const glm::vec3& o, const glm::vec3& d, Hit* hit) const
         hit->shape = s.shape;
         hit->primitive = 0;
         // The point is exact in double; what remains is one rounding to float a coordinate.
-        hit->error =
-            2 * FLT_EPSILON * std::max({std::abs(hit->p.x), std::abs(hit->p.y), std::abs(hit->p.z)});
+        hit->error = 2 * FLT_EPSILON *
+                     std::max({std::abs(hit->p.x), std::abs(hit->p.y), std::abs(hit->p.z)});
     } else {
         const WorldMesh& mesh = impl_->meshes[query.hit.geomID];
         const glm::uvec3 t = (*mesh.triangles)[query.hit.primID];
@@ -232,7 +234,8 @@ bool Geometry::intersect(const glm::vec3& o, const glm::vec3& d, Hit* hit) const
         hit->ng = side * glm::normalize(glm::cross(b - a, c - a));
         hit->ns = hit->ng;
         if (!mesh.normals.empty()) {
-            const glm::vec3 n = u * mesh.normals[t.x] + v * mesh.normals[t.y] + w * mesh.normals[t.z];
+            const glm::vec3 n =
+                u * mesh.normals[t.x] + v * mesh.normals[t.y] + w * mesh.normals[t.z];
             const float size2 = glm::dot(n, n);
             if (size2 > 1e-12f) hit->ns = n / std::sqrt(size2);
             if (glm::dot(hit->ns, hit->ng) < 0) hit->ns = -hit->ns;

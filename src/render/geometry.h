@@ -10,12 +10,12 @@
 namespace drude {
 
 struct Hit {
-    glm::vec3 p;               // recomputed on the surface, not o + t d
-    glm::vec3 ng;              // geometric normal, unit, as the shape is oriented
-    glm::vec3 ns;              // shading normal, unit, in the hemisphere of ng
-    float error = 0;           // no coordinate of p is farther than this from the surface
-    int shape = -1;            // index of Scene::shapes
-    unsigned primitive = 0;    // triangle of a mesh; 0 for a sphere
+    glm::vec3 p;             // recomputed on the surface, not o + t d
+    glm::vec3 ng;            // geometric normal, unit, as the shape is oriented
+    glm::vec3 ns;            // shading normal, unit, in the hemisphere of ng
+    float error = 0;         // no coordinate of p is farther than this from the surface
+    int shape = -1;          // index of Scene::shapes
+    unsigned primitive = 0;  // triangle of a mesh; 0 for a sphere
 };
 
 // The point from which a ray of direction d leaves a surface without meeting it again: moved off

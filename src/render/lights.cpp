@@ -15,7 +15,9 @@ namespace {
 constexpr float infinite_distance = std::numeric_limits<float>::infinity();
 constexpr float pi_f = static_cast<float>(pi);
 
-double luminance_of(const DenseSpectrum& spectrum) { return spectrum_to_xyz(spectrum)[1]; }
+double luminance_of(const DenseSpectrum& spectrum) {
+    return spectrum_to_xyz(spectrum)[1];
+}
 
 }  // namespace
 
@@ -87,8 +89,7 @@ Lights::Lights(const Scene& scene, const Geometry& geometry)
         sum += total > 0 ? power_[i] / total : 0;
         cdf_.push_back(static_cast<float>(sum));
         if (emitters_[i].kind == Kind::environment || emitters_[i].kind == Kind::constant) {
-            infinite_[emitters_[i].index].choice =
-                i > 0 ? cdf_[i] - cdf_[i - 1] : cdf_[i];
+            infinite_[emitters_[i].index].choice = i > 0 ? cdf_[i] - cdf_[i - 1] : cdf_[i];
         }
     }
     if (!(total > 0)) emitters_.clear();

@@ -24,12 +24,12 @@ class Lights {
 
     struct Sample {
         Kind kind = Kind::constant;
-        int light = -1;           // index in the scene's list of that kind
-        glm::vec3 d{0};           // towards the light, unit
-        float distance = 0;       // infinite for lights without a place
-        float pdf = 0;            // per solid angle, choice of the light included; 0: no sample
-        bool is_delta = false;    // no lobe sample ever finds it; pdf is then the choice's alone
-        glm::vec3 rgb{0};         // radiance from an environment's picture
+        int light = -1;         // index in the scene's list of that kind
+        glm::vec3 d{0};         // towards the light, unit
+        float distance = 0;     // infinite for lights without a place
+        float pdf = 0;          // per solid angle, choice of the light included; 0: no sample
+        bool is_delta = false;  // no lobe sample ever finds it; pdf is then the choice's alone
+        glm::vec3 rgb{0};       // radiance from an environment's picture
     };
     // `at` is where the light is wanted; u_choice, u uniform in [0, 1).
     Sample sample(const glm::vec3& at, float u_choice, const glm::vec2& u) const;
@@ -62,8 +62,8 @@ class Lights {
     std::vector<Infinite> infinite_;
     std::vector<Emitter> emitters_;
     std::vector<double> power_;
-    std::vector<float> cdf_;             // cumulative probability of the emitters
-    std::vector<int> first_of_shape_;    // emitter of a shape's first primitive, or -1
+    std::vector<float> cdf_;           // cumulative probability of the emitters
+    std::vector<int> first_of_shape_;  // emitter of a shape's first primitive, or -1
     std::vector<std::string> warnings_;
 };
 

@@ -190,8 +190,7 @@ class PathTracer {
         if (!(glm::dot(l.d, hit.ng) > 0)) return false;
         ++statistics->rays;
         // Short of the light itself by more than the light's own rounding.
-        const float distance =
-            std::isinf(l.distance) ? l.distance : l.distance * (1 - 1e-4f);
+        const float distance = std::isinf(l.distance) ? l.distance : l.distance * (1 - 1e-4f);
         return !geometry_.occluded(leave(hit, l.d), l.d, distance);
     }
 

@@ -10,7 +10,8 @@ namespace {
 double mitchell(double x, double b, double c) {
     x = std::abs(2 * x);  // pbrt's parameterisation: 1 at the radius
     if (x <= 1) {
-        return ((12 - 9 * b - 6 * c) * x * x * x + (-18 + 12 * b + 6 * c) * x * x + (6 - 2 * b)) / 6;
+        return ((12 - 9 * b - 6 * c) * x * x * x + (-18 + 12 * b + 6 * c) * x * x + (6 - 2 * b)) /
+               6;
     }
     if (x <= 2) {
         return ((-b - 6 * c) * x * x * x + (6 * b + 30 * c) * x * x + (-12 * b - 48 * c) * x +
@@ -64,8 +65,8 @@ PixelFilter::PixelFilter(const Filter& filter)
 float PixelFilter::Axis::offset(float u, float* weight) const {
     *weight = 1;
     if (cdf.empty()) return (2 * u - 1) * radius;
-    const size_t i = std::min<size_t>(
-        std::upper_bound(cdf.begin(), cdf.end(), u) - cdf.begin(), cdf.size() - 1);
+    const size_t i =
+        std::min<size_t>(std::upper_bound(cdf.begin(), cdf.end(), u) - cdf.begin(), cdf.size() - 1);
     const float low = i > 0 ? cdf[i - 1] : 0;
     const float inside = cdf[i] > low ? std::clamp((u - low) / (cdf[i] - low), 0.0f, 1.0f) : 0.5f;
     *weight = sign[i] * scale;

@@ -151,10 +151,9 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
     if (lights.empty()) result.warnings.push_back("the scene has no light; the picture is black");
     const CameraRays camera(scene.camera, scene.film.width, scene.film.height);
     const PixelFilter filter(scene.filter);
-    const auto tracer = make_batch_tracer(
-        result.transport, result.wavelengths,
-        {scene, geometry, lights, camera, filter, options.seed.value_or(scene.seed),
-         scene.max_depth});
+    const auto tracer = make_batch_tracer(result.transport, result.wavelengths,
+                                          {scene, geometry, lights, camera, filter,
+                                           options.seed.value_or(scene.seed), scene.max_depth});
 
     const int width = scene.film.width, height = scene.film.height;
     const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);

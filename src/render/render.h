@@ -14,9 +14,9 @@ struct RenderOptions {
     std::optional<int> samples_per_pixel;  // otherwise the scene's
     std::optional<uint64_t> seed;          // otherwise the scene's
     std::optional<Transport> transport;    // otherwise the cheapest exact one
-    bool stokes = false;    // layers S0..S3; needs the stokes transport
-    bool spectral = false;  // 10 nm layers in the JCGT layout (Fichet et al. 2021)
-    int wavelengths = 0;    // a path: 8, 16 or 40; 0: 8, or 40 with `spectral`
+    bool stokes = false;                   // layers S0..S3; needs the stokes transport
+    bool spectral = false;                 // 10 nm layers in the JCGT layout (Fichet et al. 2021)
+    int wavelengths = 0;                   // a path: 8, 16 or 40; 0: 8, or 40 with `spectral`
     int threads = 0;
     bool quiet = false;
     std::string isa;  // Embree's instruction set; empty: the best

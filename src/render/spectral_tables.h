@@ -82,7 +82,7 @@ struct SpectralTables {
                Packet<N>(rgb.z) * rgb_basis[2][phase];
     }
 
-    std::vector<ConductorTables<N>> conductors;      // by material; unused entries stay empty
+    std::vector<ConductorTables<N>> conductors;  // by material; unused entries stay empty
     std::vector<PackedSpectrum<N>> diffuse_reflectance;
     std::vector<PackedSpectrum<N>> infinite_radiance, distant_irradiance, area_radiance;
     PackedSpectrum<N> rgb_basis[3];
@@ -92,10 +92,9 @@ struct SpectralTables {
     static ConductorTables<N> conductor_tables(const ConductorMaterial& metal) {
         ConductorTables<N> tables;
         const Material& surface = metal.surface;
-        tables.microfacets =
-            metal.alpha >= 0
-                ? Microfacets<float>::from_alpha(metal.alpha, surface.masking)
-                : Microfacets<float>(surface.lobe, surface.masking, surface.beta);
+        tables.microfacets = metal.alpha >= 0
+                                 ? Microfacets<float>::from_alpha(metal.alpha, surface.masking)
+                                 : Microfacets<float>(surface.lobe, surface.masking, surface.beta);
         if (metal.reflectance) {
             tables.has_fixed_reflectance = true;
             tables.fixed_reflectance = PackedSpectrum<N>(*metal.reflectance);

@@ -109,8 +109,7 @@ class Throughput {
 template <Transport transport, int N>
 float project_on_cone(Contribution<transport, N>* c) {
     if constexpr (transport == Transport::stokes) {
-        const Packet<N> polarised =
-            sqrt(c->s[1] * c->s[1] + c->s[2] * c->s[2] + c->s[3] * c->s[3]);
+        const Packet<N> polarised = sqrt(c->s[1] * c->s[1] + c->s[2] * c->s[2] + c->s[3] * c->s[3]);
         const Packet<N> before = max(c->s[0], Packet<N>(1e-30f));
         c->s[0] = max(c->s[0], polarised);
         return max_lane(polarised / before) - 1;

@@ -21,7 +21,9 @@ struct Wavelengths {
         const int p = static_cast<int>(u * spacing);
         return p < spacing ? p : spacing - 1;
     }
-    static int nanometres(int phase, int lane) { return spectrum_first_nm + phase + lane * spacing; }
+    static int nanometres(int phase, int lane) {
+        return spectrum_first_nm + phase + lane * spacing;
+    }
 };
 
 template <int N>

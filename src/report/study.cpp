@@ -80,6 +80,7 @@ class Study {
         scene_ = parse_scene(std::string(half_sphere->text), "half-sphere.pbrt");
         replace_environment(&scene_, options_.environment, options_.threads);
         scene_.film.width = scene_.film.height = options_.resolution;
+        scene_.warnings.clear();  // of the scene's own text, which is the program's
 
         StudyInfo& info = result_.info;
         info.version = DRUDE_VERSION;
@@ -105,7 +106,8 @@ class Study {
     StudyMetal study(const Sample& sample, Sheet* sheet) {
         StudyMetal metal;
         metal.name = sample.name;
-        metal.seed = options_.seed;
+        // Noise of its own for every metal, so that their fits are independent tests.
+        metal.seed = options_.seed + static_cast<uint64_t>(&sample - samples);
         const OpticalConstants& truth = published_set(sample.set);
         const OpticalConstants& literature = published_set(sample.literature);
         metal.sample_set = truth.name;
@@ -127,7 +129,7 @@ class Study {
         for (int nm = 380; nm <= 780; nm += 5) setup.wavelengths_nm.push_back(nm);
         setup.sigma_psi_deg = 0.05;
         setup.sigma_delta_deg = 0.1;
-        setup.seed = options_.seed;
+        setup.seed = metal.seed;
         metal.measurement = simulate_ellipsometer(material_from_set(truth), setup);
         const std::string folder = std::string(sample.folder) + "/";
         make_folder(options_.folder + "/" + sample.folder);

@@ -95,13 +95,13 @@ TEST_P(Furnace, ShowsTheDirectionalAlbedo) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Lobes, Furnace,
-    testing::Values(Case{Lobe::blinn_phong, Masking::v_groove},
-                    Case{Lobe::gaussian, Masking::v_groove},
-                    Case{Lobe::beckmann, Masking::v_groove}, Case{Lobe::beckmann, Masking::smith},
-                    Case{Lobe::trowbridge_reitz, Masking::v_groove},
-                    Case{Lobe::trowbridge_reitz, Masking::smith}));
+INSTANTIATE_TEST_SUITE_P(Lobes, Furnace,
+                         testing::Values(Case{Lobe::blinn_phong, Masking::v_groove},
+                                         Case{Lobe::gaussian, Masking::v_groove},
+                                         Case{Lobe::beckmann, Masking::v_groove},
+                                         Case{Lobe::beckmann, Masking::smith},
+                                         Case{Lobe::trowbridge_reitz, Masking::v_groove},
+                                         Case{Lobe::trowbridge_reitz, Masking::smith}));
 
 }  // namespace
 }  // namespace drude

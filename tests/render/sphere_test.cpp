@@ -13,7 +13,8 @@ namespace drude {
 namespace {
 
 constexpr int size = 48;
-const char* copper_mirror = "Material \"conductor\" \"string material\" \"Cu-McPeak\" \"float beta\" 0";
+const char* copper_mirror =
+    "Material \"conductor\" \"string material\" \"Cu-McPeak\" \"float beta\" 0";
 
 // S0..S3 in a spectral bin at the centre of a pixel, from the geometry of the picture alone.
 bool closed_form(double px, double py, int bin, double radiance[10], double out[4]) {

@@ -12,8 +12,8 @@ namespace drude {
 
 // A unit sphere of the given material line at the origin under a constant white sky, seen from
 // (0, 0, -4) along +z, x right and y up; `before` stands before LookAt ("Scale -1 1 1").
-inline Scene sphere_under_sky(const std::string& material, int size,
-                              const std::string& before = "", const std::string& shape = "") {
+inline Scene sphere_under_sky(const std::string& material, int size, const std::string& before = "",
+                              const std::string& shape = "") {
     return parse_scene(
         fmt::format("{}\nLookAt 0 0 -4  0 0 0  0 1 0\n"
                     "Camera \"perspective\" \"float fov\" 32\n"
