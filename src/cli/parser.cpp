@@ -294,6 +294,8 @@ void prepare_process() {
         if (open("/dev/null", O_RDONLY) != descriptor) std::_Exit(static_cast<int>(Cause::outside));
     }
     std::signal(SIGPIPE, SIG_IGN);
+    // A file grown past its limit (ulimit -f) is a failed write like one on a full disk.
+    std::signal(SIGXFSZ, SIG_IGN);
     catch_interrupts();
 }
 

@@ -8,7 +8,7 @@ namespace drude {
 namespace {
 
 // A message for people: no type names, no stack, one program name at its head.
-void expect_message(const Run& run, int status, std::initializer_list<const char*> parts) {
+void expect_message(const ProgramRun& run, int status, std::initializer_list<const char*> parts) {
     EXPECT_EQ(run.status, status) << run.err;
     EXPECT_EQ(run.err.rfind("drude: ", 0), 0u) << run.err;
     for (const char* part : parts) EXPECT_NE(run.err.find(part), std::string::npos) << run.err;

@@ -12,7 +12,7 @@
 
 namespace drude {
 
-struct Run {
+struct ProgramRun {
     int status = -1;  // exit status, or 128 + signal
     std::string out, err;
 };
@@ -45,13 +45,13 @@ inline void write_text(const std::string& path, const std::string& text) {
 }
 
 // `drude ARGUMENTS` in `folder`, through a shell; `before` is put before it ("ulimit -f 8; ").
-inline Run run_drude(const ScratchFolder& folder, const std::string& arguments,
-                     const std::string& before = "") {
+inline ProgramRun run_drude(const ScratchFolder& folder, const std::string& arguments,
+                            const std::string& before = "") {
     const std::string command = "cd '" + folder.path() + "' && { " + before + "'" +
                                 DRUDE_BINARY_DIR "/drude' " + arguments +
                                 "; } > .out 2> .err < /dev/null";
     const int raw = std::system(command.c_str());
-    Run run;
+    ProgramRun run;
     run.status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw);
     run.out = read_text(folder / ".out");
     run.err = read_text(folder / ".err");

@@ -67,14 +67,16 @@ TEST(Program, AnswersAtOnceAndInLittleMemory) {
           std::vector<std::string>{"eval", "Cu", "--angle", "60", "--wavelength", "550"}}) {
         double fastest = 1e9;
         // What is asked of the program is not how busy the machine is: the fastest counts.
-        for (int i = 0; i < 20 && fastest > 0.05; ++i) {
+        for (int i = 0; i < (slowed_down ? 1 : 20) && fastest > 0.05; ++i) {
             const Answer answer = run_program(words);
             ASSERT_EQ(answer.status, 0) << words[0];
             EXPECT_FALSE(answer.out.empty());
+            if (slowed_down) continue;
             fastest = std::min(fastest, answer.seconds);
-            if (!slowed_down) EXPECT_LT(answer.most_kilobytes, 40 * 1024) << words[0];
+            EXPECT_LT(answer.most_kilobytes, 40 * 1024) << words[0];
         }
-        if (!slowed_down) EXPECT_LT(fastest, 0.05) << words[0];
+        if (slowed_down) continue;
+        EXPECT_LT(fastest, 0.05) << words[0];
     }
 }
 

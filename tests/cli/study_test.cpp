@@ -61,7 +61,7 @@ void expect_study(const std::string& folder) {
 
 TEST(Study, IsCompleteAndPhysicalInTheCourtyard) {
     const ScratchFolder folder;
-    const Run run =
+    const ProgramRun run =
         run_drude(folder, "reproduce -o study --resolution 48 --spp 16 --spectral -q --json");
     ASSERT_EQ(run.status, 0) << run.err;
     expect_study(folder / "study");
@@ -79,10 +79,10 @@ TEST(Study, CarriesTheCreditOfTheUffiziProbe) {
     const std::string probe = shared_data("uffizi/uffizi_latlong.exr");
     DRUDE_NEED_SHARED(probe);
     const ScratchFolder folder;
-    const Run run = run_drude(folder,
-                              "reproduce -o study --resolution 32 --spp 16 --spectral -q "
-                              "--json --environment " +
-                                  probe);
+    const ProgramRun run = run_drude(folder,
+                                     "reproduce -o study --resolution 32 --spp 16 --spectral -q "
+                                     "--json --environment " +
+                                         probe);
     ASSERT_EQ(run.status, 0) << run.err;
     expect_study(folder / "study");
     EXPECT_NE(read_text(folder / "study/index.html").find("Debevec"), std::string::npos);
