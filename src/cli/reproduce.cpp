@@ -26,7 +26,7 @@ nlohmann::json to_json(const StudyOptions& options, const StudyResult& result) {
     json["seconds"] = result.info.seconds;
     json["render_seconds"] = result.render_seconds;
     json["files"] = result.files;
-    json["notes"] = result.info.notes;
+    json["notes"] = result.notes;
     json["materials"] = nlohmann::json::array();
     for (const StudyMetal& metal : result.metals) {
         const Log10Difference& d = metal.log10_difference;
@@ -52,7 +52,7 @@ void print(const StudyOptions& options, const StudyResult& result) {
                    metal.sample_set, metal.literature_set, metal.reduced_chi2, metal.rms_dn,
                    metal.rms_dk, metal.log10_difference.mean);
     }
-    for (const std::string& note : result.info.notes) fmt::print("note: {}\n", note);
+    for (const std::string& note : result.notes) fmt::print("note: {}\n", note);
     fmt::print("{}/index.html and {}/comparison.png in {:.1f} s\n", options.folder, options.folder,
                result.info.seconds);
 }

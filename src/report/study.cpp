@@ -67,6 +67,13 @@ class Study {
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         write("summary.csv", study_summary_csv(result_.info, result_.metals));
         write("index.html", study_page(result_.info, result_.metals));
+        // The page says the first two in its own words.
+        result_.notes = result_.info.notes;
+        result_.notes.insert(
+            result_.notes.begin(),
+            {"No hardware was measured: each sample is virtual, made of one published set of "
+             "optical constants, and its measurement is simulated.",
+             "Zn-Werner-DFT is a calculation (density functional theory), not a measurement."});
         return std::move(result_);
     }
 
@@ -96,11 +103,6 @@ class Study {
         info.masking = options_.masking;
         info.beta = options_.beta;
         info.estimator = "psi-delta";
-        info.notes.push_back(
-            "No hardware was measured: each sample is virtual, made of one published set of "
-            "optical constants, and its measurement is simulated.");
-        info.notes.push_back(
-            "Zn-Werner-DFT is a calculation (density functional theory), not a measurement.");
     }
 
     StudyMetal study(const Sample& sample, Sheet* sheet) {

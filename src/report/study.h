@@ -31,6 +31,7 @@ struct StudyResult {
     StudyInfo info;
     std::vector<StudyMetal> metals;
     std::vector<std::string> files;  // written, relative to the folder
+    std::vector<std::string> notes;  // what a reader of the figures must know
     double render_seconds = 0;
 };
 

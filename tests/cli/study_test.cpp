@@ -53,7 +53,7 @@ void expect_study(const std::string& folder) {
         expect_physical(folder + "/" + metal + "/literature.exr");
     }
     const std::string page = read_text(folder + "/index.html");
-    EXPECT_NE(page.find("No hardware was measured"), std::string::npos);
+    EXPECT_NE(page.find("No hardware was used"), std::string::npos);
     EXPECT_NE(page.find("Zn-Werner-DFT"), std::string::npos);
     EXPECT_GT(std::filesystem::file_size(folder + "/comparison.png"), 10000u);
     EXPECT_NE(read_text(folder + "/summary.csv").find("reduced_chi2"), std::string::npos);
