@@ -222,6 +222,7 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
     fill_image(sums, result.batches, stokes, &image);
     image.attributes["seed"] = fmt::format("{}", options.seed.value_or(scene.seed));
     image.attributes["samples"] = result.samples_per_pixel;
+    image.attributes["sampleRange"] = fmt::format("0:{}", result.samples_per_pixel);
     image.attributes["batches"] = result.batches;
     image.attributes["batchSize"] = result.batch_size;
     image.attributes["sceneHash"] = scene.sha256;
