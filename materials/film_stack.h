@@ -45,8 +45,8 @@ Reflection<T> reflect(const ThinFilm<T>* films, int count, const ComplexIndex<T>
     Complex<T> eps_below = film_detail::squared(substrate);
     Amplitudes<T> r{{T(0.0), T(0.0)}, {T(0.0), T(0.0)}};
     for (int j = count - 1; j >= -1; --j) {
-        const Complex<T> q = j >= 0 ? normal_component(films[j].index, u)
-                                    : Complex<T>{cos_theta, T(0.0)};
+        const Complex<T> q =
+            j >= 0 ? normal_component(films[j].index, u) : Complex<T>{cos_theta, T(0.0)};
         const Complex<T> eps = j >= 0 ? film_detail::squared(films[j].index) : one;
         const Amplitudes<T> step = film_detail::interface_amplitudes(q, eps, q_below, eps_below);
         if (j == count - 1) {

@@ -15,7 +15,9 @@ const std::vector<std::string>& masking_names() {
     return names;
 }
 
-std::string_view lobe_name(Lobe lobe) { return lobe_names()[static_cast<size_t>(lobe)]; }
+std::string_view lobe_name(Lobe lobe) {
+    return lobe_names()[static_cast<size_t>(lobe)];
+}
 std::string_view masking_name(Masking masking) {
     return masking_names()[static_cast<size_t>(masking)];
 }

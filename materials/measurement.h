@@ -8,10 +8,10 @@
 namespace drude {
 
 struct MeasurementRow {
-    double wavelength_nm = 0;  // vacuum, > 0
-    double angle_deg = 0;      // of incidence, from the normal, in (0, 90)
-    double psi_deg = 0;        // in [0, 90]
-    double delta_deg = 0;      // any 360 degree window; kept as read
+    double wavelength_nm = 0;    // vacuum, > 0
+    double angle_deg = 0;        // of incidence, from the normal, in (0, 90)
+    double psi_deg = 0;          // in [0, 90]
+    double delta_deg = 0;        // any 360 degree window; kept as read
     double sigma_psi_deg = 0;    // 0 where not known
     double sigma_delta_deg = 0;  // 0 where not known
     double depolarization = -1;  // in [0, 1]; -1 where not known
@@ -26,8 +26,8 @@ struct Measurement {
     std::string header_value(const std::string& key) const;
     std::vector<double> wavelengths() const;  // distinct, ascending
     std::vector<double> angles() const;       // distinct, ascending
-    bool has_sigma() const;          // every row has both sigmas
-    bool has_depolarization() const;  // every row has it
+    bool has_sigma() const;                   // every row has both sigmas
+    bool has_depolarization() const;          // every row has it
 
     // Throws Error (user) with file:line for what MeasurementRow's bounds forbid, NaN, and
     // duplicate (wavelength, angle) pairs, and for a measurement without rows.

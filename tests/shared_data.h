@@ -17,8 +17,8 @@ inline std::string shared_data(const std::string& name) {
 
 }  // namespace drude
 
-#define DRUDE_NEED_SHARED(path)                                                \
-    if (!std::filesystem::exists(path)) {                                      \
-        GTEST_SKIP() << "development data absent: " << (path);                 \
-    }                                                                          \
+#define DRUDE_NEED_SHARED(path)                                \
+    if (!std::filesystem::exists(path)) {                      \
+        GTEST_SKIP() << "development data absent: " << (path); \
+    }                                                          \
     static_assert(true)

@@ -204,7 +204,7 @@ int run(const Options& options, const CommonOptions& common) {
 Command compare_command() {
     Command command;
     command.name = "compare";
-    command.summary = "difference of two pictures, with the noise taken into account";
+    command.summary = "Compare two pictures, with their noise taken into account";
     command.description =
         "Compares A with B (the reference) and exits with 0 where they count as the same, 1 where "
         "they differ, 2 where they cannot be compared (other size, missing channel, bad file).\n\n"

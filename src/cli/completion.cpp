@@ -81,7 +81,7 @@ Command completion_command(const std::vector<Command>& commands) {
     completion.example = "source <(drude completion bash)";
     completion.declare = [&commands](OptionSet& options, const CommonOptions& common) {
         const auto shell = std::make_shared<std::string>();
-        options.positional("SHELL", *shell, "The shell: bash.", true);
+        options.positional("SHELL", *shell, "the shell: bash", true);
         return [shell, &commands, &common] {
             if (*shell != "bash") {
                 user_error("found the shell '{}', expected bash{}", *shell,

@@ -175,11 +175,11 @@ void declare_command(const Command& command, DeclaredCommand& declared) {
     DeclaredOptions& options = declared.options;
     declared.run = command.declare(options, declared.common);
     options.flag("--json", declared.common.json,
-                 "Print one JSON document on standard output and nothing else there.");
-    options.flag("-q,--quiet", declared.common.quiet, "Print no progress.");
+                 "print one JSON document on standard output and nothing else there");
+    options.flag("-q,--quiet", declared.common.quiet, "print no progress");
     options.option("--threads", declared.common.threads,
-                   "Threads to work with; 0, the default, takes all there are.");
-    options.flag("-h,--help", declared.help, "Print this page.");
+                   "threads to work with; 0, the default, takes all there are");
+    options.flag("-h,--help", declared.help, "print this page");
 }
 
 }  // namespace drude

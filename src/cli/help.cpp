@@ -124,7 +124,7 @@ std::string option_label(const DeclaredOption& option) {
 std::string option_text(const DeclaredOption& option) {
     std::string text = option.help;
     if (!option.default_text.empty()) text += fmt::format(" (default: {})", option.default_text);
-    if (option.repeats && option.kind == DeclaredOption::Kind::value) text += " May be repeated.";
+    if (option.repeats && option.kind == DeclaredOption::Kind::value) text += " (may be repeated)";
     return text;
 }
 
@@ -201,8 +201,8 @@ Command help_command(const std::vector<Command>& commands) {
             bool manual = false;
         };
         const auto state = std::make_shared<State>();
-        options.positional("COMMAND", state->name, "The command to explain.", false);
-        options.flag("--man", state->manual, "Print the manual page.");
+        options.positional("COMMAND", state->name, "the command to explain", false);
+        options.flag("--man", state->manual, "print the manual page");
         return [state, &commands, &common] {
             const Command* command =
                 state->name.empty() ? nullptr : &find_command(commands, state->name);

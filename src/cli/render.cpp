@@ -133,7 +133,7 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
 Command render_command() {
     Command command;
     command.name = "render";
-    command.summary = "a pbrt-v4 scene to a spectral, polarised EXR";
+    command.summary = "Render a pbrt-v4 scene to a spectral, polarised EXR";
     command.description =
         "Renders SCENE to an EXR of float32: R, G, B (linear sRGB), the variance of each between "
         "batches of samples, with --stokes the layers S0 to S3, with --spectral radiance in 10 nm "

@@ -62,7 +62,7 @@ void print(const StudyOptions& options, const StudyResult& result) {
 Command reproduce_command() {
     Command command;
     command.name = "reproduce";
-    command.summary = "the whole study: five metals measured, fitted, rendered, compared";
+    command.summary = "Run the whole study: five metals measured, fitted, rendered, compared";
     command.description =
         "Copper, silver, gold, aluminium and a zinc coating, each as a virtual sample made of one "
         "published set of optical constants: measured by a simulated ellipsometer, fitted, and "

@@ -84,7 +84,7 @@ int run(const Options& options, const CommonOptions& common) {
 Command tonemap_command() {
     Command command;
     command.name = "tonemap";
-    command.summary = "make a linear picture fit for a display";
+    command.summary = "Make a linear picture fit for a display";
     command.description =
         "Reads an OpenEXR picture (or any that OpenImageIO reads) and writes an 8-bit sRGB PNG.\n\n"
         "The operator 'durand' (Durand & Dorsey 2002) splits log10 intensity with a bilateral "

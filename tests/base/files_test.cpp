@@ -14,7 +14,7 @@
 
 #include "base/error.h"
 #include "base/expect_error.h"
-#include "base/temporary_folder.h"
+#include "temporary_folder.h"
 
 namespace drude {
 namespace {

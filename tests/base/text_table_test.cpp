@@ -4,7 +4,7 @@
 
 #include "base/expect_error.h"
 #include "base/files.h"
-#include "base/temporary_folder.h"
+#include "temporary_folder.h"
 
 namespace drude {
 namespace {

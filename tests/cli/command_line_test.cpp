@@ -16,11 +16,11 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "base/temporary_folder.h"
 #include "cli/completion.h"
 #include "cli/help.h"
 #include "cli/manual.h"
 #include "cli/parser.h"
+#include "temporary_folder.h"
 
 namespace drude {
 namespace {

@@ -60,11 +60,11 @@ void expect_study(const std::string& folder) {
 }
 
 TEST(Study, IsCompleteAndPhysicalInTheCourtyard) {
-    const ScratchFolder folder;
+    const TemporaryFolder folder;
     const ProgramRun run =
         run_drude(folder, "reproduce -o study --resolution 48 --spp 16 --spectral -q --json");
     ASSERT_EQ(run.status, 0) << run.err;
-    expect_study(folder / "study");
+    expect_study(folder.file("study"));
     const nlohmann::json json = nlohmann::json::parse(run.out);
     ASSERT_EQ(json.at("materials").size(), 5u);
     for (const auto& material : json.at("materials")) {
@@ -78,15 +78,15 @@ TEST(Study, IsCompleteAndPhysicalInTheCourtyard) {
 TEST(Study, CarriesTheCreditOfTheUffiziProbe) {
     const std::string probe = shared_data("uffizi/uffizi_latlong.exr");
     DRUDE_NEED_SHARED(probe);
-    const ScratchFolder folder;
+    const TemporaryFolder folder;
     const ProgramRun run = run_drude(folder,
                                      "reproduce -o study --resolution 32 --spp 16 --spectral -q "
                                      "--json --environment " +
                                          probe);
     ASSERT_EQ(run.status, 0) << run.err;
-    expect_study(folder / "study");
-    EXPECT_NE(read_text(folder / "study/index.html").find("Debevec"), std::string::npos);
-    EXPECT_NE(read_exr(folder / "study/gold/fitted.exr").text("credit").find("Debevec"),
+    expect_study(folder.file("study"));
+    EXPECT_NE(read_text(folder.file("study/index.html")).find("Debevec"), std::string::npos);
+    EXPECT_NE(read_exr(folder.file("study/gold/fitted.exr")).text("credit").find("Debevec"),
               std::string::npos);
 }
 

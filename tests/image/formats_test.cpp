@@ -53,7 +53,7 @@ TEST(Png, IsWrittenAndReadBackWithinItsEightBits) {
     for (size_t i = 0; i < rgb.size(); ++i) {
         EXPECT_NEAR(srgb_from_linear(back[i]), srgb_from_linear(rgb[i]), 0.502 / 255.0) << i;
     }
-    EXPECT_EQ(folder.entries(), 1U);
+    EXPECT_EQ(folder.names().size(), 1U);
 }
 
 TEST(Png, FullDiskIsAnOutsideErrorAndLeavesNothingBehind) {
@@ -74,7 +74,7 @@ TEST(Png, FullDiskIsAnOutsideErrorAndLeavesNothingBehind) {
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &old_limit), 0);
     signal(SIGXFSZ, old_handler);
     EXPECT_EQ(cause, 3);
-    EXPECT_EQ(folder.entries(), 0U);
+    EXPECT_EQ(folder.names().size(), 0U);
 }
 
 // Radiance's format written by hand: four flat pixels, no run lengths. A mantissa m with exponent

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
-#include "base/temporary_folder.h"
+#include "temporary_folder.h"
 #include "materials/material.h"
 #include "scene_text.h"
 

@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "base/temporary_folder.h"
+#include "temporary_folder.h"
 #include "scene_text.h"
 
 namespace drude {
