@@ -29,7 +29,8 @@ glm::vec3 equal_area_direction(glm::vec2 p) {
 
 glm::vec2 equal_area_square(const glm::vec3& d) {
     const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
-    const float r = std::sqrt(std::max(0.0f, 1 - z));
+    // sqrt(1 - z) without the cancellation at the poles.
+    const float r = std::sqrt((x * x + y * y) / (1 + z));
     const float large = std::max(x, y), small = std::min(x, y);
     float phi = large == 0 ? 0 : std::atan(small / large) * 2 / pi_f;
     if (x < y) phi = 1 - phi;
@@ -75,9 +76,10 @@ Environment::Environment(const Image& image, double scale, const glm::dmat4& wor
     const Channel& g = grey && !image.find("G") ? *grey : image.at("G", where);
     const Channel& b = grey && !image.find("B") ? *grey : image.at("B", where);
 
-    world_from_light_ = glm::mat3(glm::dmat3(world_from_light));
-    for (int i = 0; i < 3; ++i) world_from_light_[i] = glm::normalize(world_from_light_[i]);
-    light_from_world_ = glm::inverse(world_from_light_);
+    const glm::dmat3 matrix(world_from_light);
+    const double scale_of_space = std::cbrt(std::abs(glm::determinant(matrix)));
+    world_from_light_ = glm::mat3(matrix / scale_of_space);
+    light_from_world_ = glm::mat3(glm::inverse(matrix) * scale_of_space);
 
     texels_.resize(image.pixels());
     std::vector<float> solid_angle_weight(static_cast<size_t>(height_), 1.0f);
@@ -132,8 +134,7 @@ Environment::Environment(const Image& image, double scale, const glm::dmat4& wor
     for (float& w : weight_) w *= normalise;
 }
 
-size_t Environment::texel(const glm::vec3& d) const {
-    const glm::vec3 l = light_from_world_ * d;
+size_t Environment::texel(const glm::vec3& l) const {
     glm::vec2 uv;
     if (lat_long_) {
         const float phi = std::atan2(l.y, l.x);
@@ -147,10 +148,18 @@ size_t Environment::texel(const glm::vec3& d) const {
     return static_cast<size_t>(y) * width_ + x;
 }
 
+glm::vec3 Environment::radiance(const glm::vec3& d) const {
+    return texels_[texel(glm::normalize(light_from_world_ * d))];
+}
+
 // A texel of weight w (1 on average over the sphere) is chosen in proportion to w times its solid
-// angle, and uniformly in solid angle within, so the density over directions is w / 4 pi.
+// angle, and uniformly in solid angle within, so the density over light-space directions is
+// w / 4 pi. A linear map W of determinant +-1 takes the solid angle around a unit vector d to
+// 1 / |W d|^3 of it; for a rotation that is 1.
 float Environment::pdf(const glm::vec3& d) const {
-    return weight_[texel(d)] / (4 * pi_f);
+    const glm::vec3 l = light_from_world_ * d;
+    const float size = glm::length(l);
+    return weight_[texel(l / size)] / (4 * pi_f * size * size * size);
 }
 
 Environment::Sample Environment::sample(const glm::vec2& u) const {
@@ -173,10 +182,12 @@ Environment::Sample Environment::sample(const glm::vec2& u) const {
             {fx, (static_cast<float>(y) + inside_y) / static_cast<float>(height_)});
     }
     Sample s;
-    s.d = glm::normalize(world_from_light_ * l);
+    const glm::vec3 d = world_from_light_ * l;
+    const float size = glm::length(d);
+    s.d = d / size;
     const size_t index = y * static_cast<size_t>(width_) + x;
     s.radiance = texels_[index];
-    s.pdf = weight_[index] / (4 * pi_f);
+    s.pdf = weight_[index] * size * size * size / (4 * pi_f);
     return s;
 }
 

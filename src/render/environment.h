@@ -25,7 +25,7 @@ class Environment {
                 const std::string& where);
 
     // Linear RGB radiance that arrives from world direction d (unit, away from the viewer).
-    glm::vec3 radiance(const glm::vec3& d) const { return texels_[texel(d)]; }
+    glm::vec3 radiance(const glm::vec3& d) const;
 
     struct Sample {
         glm::vec3 d;         // world direction towards the light
@@ -42,11 +42,11 @@ class Environment {
     double mean_luminance() const { return mean_luminance_; }
 
   private:
-    size_t texel(const glm::vec3& d) const;
+    size_t texel(const glm::vec3& light_direction) const;
 
     bool lat_long_;
     int width_, height_;
-    glm::mat3 light_from_world_, world_from_light_;
+    glm::mat3 light_from_world_, world_from_light_;  // of determinant +-1
     std::vector<glm::vec3> texels_;
     // Cumulative weights: of the rows, and within each row; the last of each is its total.
     std::vector<float> row_cdf_, column_cdf_;

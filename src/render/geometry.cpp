@@ -39,7 +39,7 @@ struct Geometry::Impl {
     std::vector<WorldMesh> meshes;     // geometry id = index
     std::vector<WorldSphere> spheres;  // one user geometry, primitive id = index
     unsigned sphere_geometry = RTC_INVALID_GEOMETRY_ID;
-    std::vector<int> mesh_of_shape;
+    std::vector<int> mesh_of_shape, sphere_of_shape;
 
     ~Impl() {
         if (embree) rtcReleaseScene(embree);
@@ -77,7 +77,7 @@ void sphere_bounds(const RTCBoundsFunctionArguments* args) {
     b->upper_z = static_cast<float>(high.z + slack);
 }
 
-double sphere_hit(const Geometry::Impl* impl, unsigned primitive, const RTCRay& ray) {
+double sphere_distance(const Geometry::Impl* impl, unsigned primitive, const RTCRay& ray) {
     return impl->spheres[primitive].sphere.intersect(
         {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, ray.tnear, ray.tfar);
 }
@@ -87,7 +87,7 @@ void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
     if (!args->valid[0]) return;
     auto* ray_hit = reinterpret_cast<RTCRayHit*>(args->rayhit);
     const auto* impl = static_cast<const Geometry::Impl*>(args->geometryUserPtr);
-    const double t = sphere_hit(impl, args->primID, ray_hit->ray);
+    const double t = sphere_distance(impl, args->primID, ray_hit->ray);
     if (!(t > 0)) return;
     ray_hit->ray.tfar = static_cast<float>(t);
     ray_hit->hit.geomID = args->geomID;
@@ -98,7 +98,7 @@ void sphere_occluded(const RTCOccludedFunctionNArguments* args) {
     if (!args->valid[0]) return;
     auto* ray = reinterpret_cast<RTCRay*>(args->ray);
     const auto* impl = static_cast<const Geometry::Impl*>(args->geometryUserPtr);
-    if (sphere_hit(impl, args->primID, *ray) > 0) {
+    if (sphere_distance(impl, args->primID, *ray) > 0) {
         ray->tfar = -std::numeric_limits<float>::infinity();
     }
 }
@@ -114,10 +114,54 @@ WorldMesh to_world(const TriangleMesh& mesh, const Shape& shape, int index) {
     for (const glm::vec3& p : mesh.positions) {
         world.positions.emplace_back(shape.world_from_object * glm::dvec4(p, 1));
     }
+    const double side = shape.reverse_orientation ? -1 : 1;
     for (const glm::vec3& n : mesh.normals) {
-        world.normals.emplace_back(glm::normalize(normal_matrix * glm::dvec3(n)));
+        world.normals.emplace_back(side * glm::normalize(normal_matrix * glm::dvec3(n)));
     }
     return world;
+}
+
+// A surface through the world's origin still needs room to leave it.
+constexpr float least_error = 1e-14f;
+
+Hit sphere_hit(const WorldSphere& s, const glm::dvec3& object_point) {
+    Hit hit;
+    hit.p = glm::vec3(s.sphere.to_world(object_point));
+    const double side = s.flip ? -1 : 1;
+    hit.ng = glm::vec3(side * s.sphere.world_normal(object_point));
+    hit.ns = hit.ng;
+    hit.shape = s.shape;
+    // The point is good to rounding in double; then comes one rounding to float a coordinate.
+    const glm::vec3 size = glm::abs(hit.p);
+    hit.error = 2 * FLT_EPSILON * std::max({size.x, size.y, size.z}) +
+                static_cast<float>(s.sphere.rounding());
+    hit.error = std::max(hit.error, least_error);
+    return hit;
+}
+
+Hit triangle_hit(const WorldMesh& mesh, unsigned primitive, float v, float w) {
+    const glm::uvec3 t = (*mesh.triangles)[primitive];
+    const glm::vec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+    const float u = 1 - v - w;
+    Hit hit;
+    hit.p = u * a + v * b + w * c;
+    // Seven roundings on sums of this size (Pharr, Jakob & Humphreys, section 6.8.5).
+    const glm::vec3 size = glm::abs(a) + glm::abs(b) + glm::abs(c);
+    hit.error = std::max(7 * FLT_EPSILON * std::max({size.x, size.y, size.z}), least_error);
+    // In double: the fourth power of a triangle's size leaves the range of float at 1e-10 and 1e9.
+    const glm::dvec3 corner(a);
+    const glm::dvec3 across = glm::cross(glm::dvec3(b) - corner, glm::dvec3(c) - corner);
+    hit.ng = glm::vec3((mesh.flip ? -1.0 : 1.0) * glm::normalize(across));
+    hit.ns = hit.ng;
+    if (!mesh.normals.empty()) {
+        const glm::vec3 n = u * mesh.normals[t.x] + v * mesh.normals[t.y] + w * mesh.normals[t.z];
+        const float size2 = glm::dot(n, n);
+        if (size2 > 1e-12f) hit.ns = n / std::sqrt(size2);
+        if (glm::dot(hit.ns, hit.ng) < 0) hit.ng = -hit.ng;
+    }
+    hit.shape = mesh.shape;
+    hit.primitive = primitive;
+    return hit;
 }
 
 }  // namespace
@@ -125,6 +169,7 @@ WorldMesh to_world(const TriangleMesh& mesh, const Shape& shape, int index) {
 Geometry::Geometry(const Scene& scene, const std::string& isa) : impl_(std::make_unique<Impl>()) {
     impl_->scene = &scene;
     impl_->mesh_of_shape.assign(scene.shapes.size(), -1);
+    impl_->sphere_of_shape.assign(scene.shapes.size(), -1);
     // One build thread: the tree, and with it the order of equal hits, must not depend on timing.
     const std::string config = isa.empty() ? "threads=1" : fmt::format("threads=1,isa={}", isa);
     impl_->device = rtcNewDevice(config.c_str());
@@ -136,11 +181,12 @@ Geometry::Geometry(const Scene& scene, const std::string& isa) : impl_(std::make
     for (size_t i = 0; i < scene.shapes.size(); ++i) {
         const Shape& shape = scene.shapes[i];
         const int index = static_cast<int>(i);
-        if (shape.material < 0 && shape.area_light < 0) continue;  // nothing to see or to stop
+        if (shape.material < 0) continue;
         if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
             impl_->mesh_of_shape[i] = static_cast<int>(impl_->meshes.size());
             impl_->meshes.push_back(to_world(*mesh, shape, index));
         } else {
+            impl_->sphere_of_shape[i] = static_cast<int>(impl_->spheres.size());
             impl_->spheres.push_back(
                 {index, PartialSphere(std::get<Sphere>(shape.geometry), shape.world_from_object),
                  shape.reverse_orientation});
@@ -177,7 +223,7 @@ Geometry::Geometry(const Scene& scene, const std::string& isa) : impl_(std::make
     if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE) {
         outside_error("Embree cannot build the scene; is there enough memory?");
     }
-    if (!scene.shapes.empty()) {
+    if (!impl_->meshes.empty() || !impl_->spheres.empty()) {
         RTCBounds bounds;
         rtcGetSceneBounds(impl_->embree, &bounds);
         const glm::vec3 low(bounds.lower_x, bounds.lower_y, bounds.lower_z);
@@ -211,41 +257,29 @@ bool Geometry::intersect(const glm::vec3& o, const glm::vec3& d, Hit* hit) const
     if (query.hit.geomID == impl_->sphere_geometry) {
         const WorldSphere& s = impl_->spheres[query.hit.primID];
         const glm::dvec3 near = glm::dvec3(o) + static_cast<double>(query.ray.tfar) * glm::dvec3(d);
-        const glm::dvec3 p = s.sphere.on_surface(s.sphere.to_object(near));
-        hit->p = glm::vec3(s.sphere.to_world(p));
-        const double side = s.flip ? -1 : 1;
-        hit->ng = glm::vec3(side * s.sphere.world_normal(p));
-        hit->ns = hit->ng;
-        hit->shape = s.shape;
-        hit->primitive = 0;
-        // The point is exact in double; what remains is one rounding to float a coordinate.
-        hit->error = 2 * FLT_EPSILON *
-                     std::max({std::abs(hit->p.x), std::abs(hit->p.y), std::abs(hit->p.z)});
+        *hit = sphere_hit(s, s.sphere.on_surface(s.sphere.to_object(near)));
     } else {
-        const WorldMesh& mesh = impl_->meshes[query.hit.geomID];
-        const glm::uvec3 t = (*mesh.triangles)[query.hit.primID];
-        const glm::vec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-        const float v = query.hit.u, w = query.hit.v, u = 1 - v - w;
-        hit->p = u * a + v * b + w * c;
-        // Seven roundings on sums of this size (Pharr, Jakob & Humphreys, section 6.8.5).
-        const glm::vec3 size = glm::abs(a) + glm::abs(b) + glm::abs(c);
-        hit->error = 7 * FLT_EPSILON * std::max({size.x, size.y, size.z});
-        const float side = mesh.flip ? -1.0f : 1.0f;
-        hit->ng = side * glm::normalize(glm::cross(b - a, c - a));
-        hit->ns = hit->ng;
-        if (!mesh.normals.empty()) {
-            const glm::vec3 n =
-                u * mesh.normals[t.x] + v * mesh.normals[t.y] + w * mesh.normals[t.z];
-            const float size2 = glm::dot(n, n);
-            if (size2 > 1e-12f) hit->ns = n / std::sqrt(size2);
-            if (glm::dot(hit->ns, hit->ng) < 0) hit->ns = -hit->ns;
-        }
-        hit->shape = mesh.shape;
-        hit->primitive = query.hit.primID;
+        *hit = triangle_hit(impl_->meshes[query.hit.geomID], query.hit.primID, query.hit.u,
+                            query.hit.v);
     }
-    // A surface through the world's origin still needs room to leave it.
-    hit->error = std::max(hit->error, 1e-14f);
     return true;
+}
+
+Hit Geometry::on_triangle(int shape, unsigned primitive, float v, float w) const {
+    return triangle_hit(impl_->meshes[impl_->mesh_of_shape[shape]], primitive, v, w);
+}
+
+Hit Geometry::on_sphere(int shape, const glm::dvec3& object_point) const {
+    return sphere_hit(impl_->spheres[impl_->sphere_of_shape[shape]], object_point);
+}
+
+double Geometry::area_stretch(int shape, const glm::dvec3& n) const {
+    return impl_->spheres[impl_->sphere_of_shape[shape]].sphere.area_stretch(n);
+}
+
+double Geometry::area_stretch_at(int shape, const glm::vec3& p) const {
+    const PartialSphere& sphere = impl_->spheres[impl_->sphere_of_shape[shape]].sphere;
+    return sphere.area_stretch(glm::normalize(sphere.to_object(p)));
 }
 
 bool Geometry::occluded(const glm::vec3& o, const glm::vec3& d, float distance) const {

@@ -10,11 +10,12 @@
 namespace drude {
 
 struct Hit {
-    glm::vec3 p;             // recomputed on the surface, not o + t d
-    glm::vec3 ng;            // geometric normal, unit, as the shape is oriented
-    glm::vec3 ns;            // shading normal, unit, in the hemisphere of ng
-    float error = 0;         // no coordinate of p is farther than this from the surface
-    int shape = -1;          // index of Scene::shapes
+    glm::vec3 p;      // recomputed on the surface, not o + t d
+    glm::vec3 ng;     // geometric normal, unit; an emitter that is not two-sided shines there.
+                      // Vertex normals decide its side, else winding, as in pbrt-v4
+    glm::vec3 ns;     // shading normal, unit, in the hemisphere of ng
+    float error = 0;  // no coordinate of p is farther than this from the surface
+    int shape = -1;   // index of Scene::shapes
     unsigned primitive = 0;  // triangle of a mesh; 0 for a sphere
 };
 
@@ -25,6 +26,7 @@ inline glm::vec3 leave(const Hit& hit, const glm::vec3& d) {
     return hit.p + side * hit.error * hit.ng;
 }
 
+// Shapes without material (pbrt's "interface") are as if they were not there.
 class Geometry {
   public:
     // Keeps a reference to `scene`, which must outlive it. Throws Error (outside) where Embree
@@ -44,6 +46,15 @@ class Geometry {
     float radius() const { return radius_; }
     // The instruction set Embree runs on, "avx2" and the like.
     const std::string& isa() const { return isa_; }
+
+    // The point of a triangle at the barycentric coordinates v of its second corner and w of its
+    // third, and of a sphere at a point of its surface in its own space, as intersect() has them.
+    Hit on_triangle(int shape, unsigned primitive, float v, float w) const;
+    Hit on_sphere(int shape, const glm::dvec3& object_point) const;
+    // By how much the transformation of a sphere stretches its surface where the normal in its own
+    // space is n (unit), or at the point p of the world.
+    double area_stretch(int shape, const glm::dvec3& n) const;
+    double area_stretch_at(int shape, const glm::vec3& p) const;
 
     // The corners of a triangle in the world.
     void triangle(int shape, unsigned primitive, glm::vec3 corners[3]) const;

@@ -21,9 +21,44 @@ double luminance_of(const DenseSpectrum& spectrum) {
 
 }  // namespace
 
-void Lights::add(const Emitter& emitter, double power) {
+void Lights::add(const Emitter& emitter, double power, size_t first_of_light) {
     emitters_.push_back(emitter);
     power_.push_back(power);
+    light_of_.push_back(first_of_light);
+}
+
+float Lights::choice(size_t emitter) const {
+    return emitter > 0 ? cdf_[emitter] - cdf_[emitter - 1] : cdf_[0];
+}
+
+void Lights::make_choice() {
+    double total = 0;
+    std::vector<double> of_light(emitters_.size(), 0);
+    for (size_t i = 0; i < emitters_.size(); ++i) {
+        total += power_[i];
+        of_light[light_of_[i]] += power_[i];
+    }
+    if (!(total > 0)) {
+        emitters_.clear();
+        return;
+    }
+    const auto lights = static_cast<double>(
+        std::count_if(of_light.begin(), of_light.end(), [](double p) { return p > 0; }));
+    constexpr double alike = 0.1;
+    double sum = 0;
+    for (size_t i = 0; i < emitters_.size(); ++i) {
+        // A light without power keeps a place with probability zero.
+        if (power_[i] > 0) {
+            sum += (1 - alike) * power_[i] / total +
+                   alike * power_[i] / (of_light[light_of_[i]] * lights);
+        }
+        // Steps of the uniform numbers themselves, so that the probability is exactly the one that
+        // is divided by.
+        cdf_.push_back(static_cast<float>(std::round(std::min(1.0, sum) * 0x1p24) * 0x1p-24));
+        if (emitters_[i].kind == Kind::environment || emitters_[i].kind == Kind::constant) {
+            infinite_[emitters_[i].index].choice = choice(i);
+        }
+    }
 }
 
 Lights::Lights(const Scene& scene, const Geometry& geometry)
@@ -50,49 +85,44 @@ Lights::Lights(const Scene& scene, const Geometry& geometry)
         infinite_.push_back(std::move(infinite));
         add({infinite_.back().environment ? Kind::environment : Kind::constant,
              static_cast<int>(i)},
-            4 * pi * cross_section * luminance);
+            4 * pi * cross_section * luminance, emitters_.size());
     }
     for (size_t i = 0; i < scene.distant_lights.size(); ++i) {
         add({Kind::distant, static_cast<int>(i)},
-            cross_section * luminance_of(scene.distant_lights[i].irradiance));
+            cross_section * luminance_of(scene.distant_lights[i].irradiance), emitters_.size());
     }
     for (size_t i = 0; i < scene.shapes.size(); ++i) {
         const Shape& shape = scene.shapes[i];
-        if (shape.area_light < 0) continue;
+        if (shape.area_light < 0 || shape.material < 0) continue;
         const AreaLight& light = scene.area_lights[shape.area_light];
         const double exitance = pi * luminance_of(light.radiance) * (light.two_sided ? 2 : 1);
-        first_of_shape_[i] = static_cast<int>(emitters_.size());
+        const size_t first = emitters_.size();
+        first_of_shape_[i] = static_cast<int>(first);
         if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
             for (unsigned t = 0; t < mesh->triangles.size(); ++t) {
                 glm::vec3 c[3];
                 geometry.triangle(static_cast<int>(i), t, c);
-                const float area = 0.5f * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
-                add({Kind::area, static_cast<int>(i), t, area},
-                    exitance * static_cast<double>(area));
+                const glm::dvec3 a(c[0]);
+                const double area =
+                    0.5 * glm::length(glm::cross(glm::dvec3(c[1]) - a, glm::dvec3(c[2]) - a));
+                add({Kind::area, static_cast<int>(i), t, static_cast<float>(area)}, exitance * area,
+                    first);
             }
         } else {
-            // Uniform in the object's own area: exact for rigid and uniformly scaled spheres,
-            // which is what the scene reader lets through for emitting ones.
             const Sphere& s = std::get<Sphere>(shape.geometry);
-            const double scale = glm::length(glm::dvec3(shape.world_from_object[0]));
             const double area = s.phi_max_deg / 360 * 2 * pi * s.radius *
-                                (std::min(s.z_max, s.radius) - std::max(s.z_min, -s.radius)) *
-                                scale * scale;
-            add({Kind::area, static_cast<int>(i), 0, static_cast<float>(area)}, exitance * area);
+                                (std::min(s.z_max, s.radius) - std::max(s.z_min, -s.radius));
+            double stretch = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+                glm::dvec3 n(0);
+                n[axis] = 1;
+                stretch += geometry.area_stretch(static_cast<int>(i), n) / 3;
+            }
+            add({Kind::area, static_cast<int>(i), 0, static_cast<float>(area)},
+                exitance * area * stretch, first);
         }
     }
-    double total = 0;
-    for (const double p : power_) total += p;
-    double sum = 0;
-    for (size_t i = 0; i < emitters_.size(); ++i) {
-        // A light without power keeps a place with probability zero.
-        sum += total > 0 ? power_[i] / total : 0;
-        cdf_.push_back(static_cast<float>(sum));
-        if (emitters_[i].kind == Kind::environment || emitters_[i].kind == Kind::constant) {
-            infinite_[emitters_[i].index].choice = i > 0 ? cdf_[i] - cdf_[i - 1] : cdf_[i];
-        }
-    }
-    if (!(total > 0)) emitters_.clear();
+    make_choice();
 }
 
 float Lights::infinite_pdf(size_t light, const glm::vec3& d) const {
@@ -104,11 +134,46 @@ float Lights::area_pdf(const Hit& hit, const glm::vec3& d, float distance) const
     const int first = first_of_shape_[hit.shape];
     if (first < 0 || emitters_.empty()) return 0;
     const size_t i = static_cast<size_t>(first) + hit.primitive;
-    const float choice = i > 0 ? cdf_[i] - cdf_[i - 1] : cdf_[i];
+    float area = emitters_[i].area;
+    if (std::holds_alternative<Sphere>(scene_.shapes[hit.shape].geometry)) {
+        area *= static_cast<float>(geometry_.area_stretch_at(hit.shape, hit.p));
+    }
     const float cosine = std::abs(glm::dot(hit.ng, d));
-    return cosine > 0 && emitters_[i].area > 0
-               ? choice * distance * distance / (cosine * emitters_[i].area)
-               : 0;
+    return cosine > 0 && area > 0 ? choice(i) * distance * distance / (cosine * area) : 0;
+}
+
+void Lights::sample_area(const Emitter& e, float choice, const glm::vec3& at, const glm::vec2& u,
+                         Sample* s) const {
+    const Shape& shape = scene_.shapes[e.index];
+    Hit hit;
+    float area = e.area;
+    if (std::holds_alternative<TriangleMesh>(shape.geometry)) {
+        const float root = std::sqrt(u.x);
+        hit = geometry_.on_triangle(e.index, e.primitive, root * (1 - u.y), root * u.y);
+    } else {
+        // Uniform in the object's own area, which the transformation stretches by its place.
+        const Sphere& sphere = std::get<Sphere>(shape.geometry);
+        const double low = std::max(sphere.z_min, -sphere.radius);
+        const double high = std::min(sphere.z_max, sphere.radius);
+        const double z = low + static_cast<double>(u.x) * (high - low);
+        const double phi = static_cast<double>(u.y) * sphere.phi_max_deg * pi / 180;
+        const double r = std::sqrt(std::max(0.0, sphere.radius * sphere.radius - z * z));
+        const glm::dvec3 object(r * std::cos(phi), r * std::sin(phi), z);
+        hit = geometry_.on_sphere(e.index, object);
+        area *= static_cast<float>(geometry_.area_stretch(e.index, object / sphere.radius));
+    }
+    const glm::vec3 to = hit.p - at;
+    const float distance2 = glm::dot(to, to);
+    s->light = shape.area_light;
+    if (!(distance2 > 0) || !(area > 0)) return;
+    s->distance = std::sqrt(distance2);
+    s->d = to / s->distance;
+    const float cosine = -glm::dot(hit.ng, s->d);
+    if (cosine == 0 || (cosine < 0 && !scene_.area_lights[shape.area_light].two_sided)) return;
+    s->pdf = choice * distance2 / (std::abs(cosine) * area);
+    // Off the light by its own rounding and by that of a ray over the distance.
+    hit.error += 4 * std::numeric_limits<float>::epsilon() * s->distance;
+    s->target = leave(hit, -s->d);
 }
 
 Lights::Sample Lights::sample(const glm::vec3& at, float u_choice, const glm::vec2& u) const {
@@ -117,8 +182,8 @@ Lights::Sample Lights::sample(const glm::vec3& at, float u_choice, const glm::ve
     const size_t i = std::min<size_t>(
         std::upper_bound(cdf_.begin(), cdf_.end(), u_choice) - cdf_.begin(), emitters_.size() - 1);
     const Emitter& e = emitters_[i];
-    const float choice = i > 0 ? cdf_[i] - cdf_[i - 1] : cdf_[i];
-    if (!(choice > 0)) return s;
+    const float p = choice(i);
+    if (!(p > 0)) return s;
     s.kind = e.kind;
     s.light = e.index;
     s.distance = infinite_distance;
@@ -127,54 +192,23 @@ Lights::Sample Lights::sample(const glm::vec3& at, float u_choice, const glm::ve
             const Environment::Sample sample = infinite_[e.index].environment->sample(u);
             s.d = sample.d;
             s.rgb = sample.radiance;
-            s.pdf = choice * sample.pdf;
+            s.pdf = p * sample.pdf;
             break;
         }
         case Kind::constant: {
             const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
             s.d = {r * std::cos(2 * pi_f * u.y), r * std::sin(2 * pi_f * u.y), z};
-            s.pdf = choice / (4 * pi_f);
+            s.pdf = p / (4 * pi_f);
             break;
         }
         case Kind::distant:
             s.d = glm::vec3(-scene_.distant_lights[e.index].direction);
-            s.pdf = choice;
+            s.pdf = p;
             s.is_delta = true;
             break;
-        case Kind::area: {
-            const Shape& shape = scene_.shapes[e.index];
-            glm::vec3 p, n;
-            if (std::holds_alternative<TriangleMesh>(shape.geometry)) {
-                glm::vec3 c[3];
-                geometry_.triangle(e.index, e.primitive, c);
-                const float root = std::sqrt(u.x);
-                p = (1 - root) * c[0] + root * (1 - u.y) * c[1] + root * u.y * c[2];
-                n = glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
-                const bool mirrored = glm::determinant(glm::dmat3(shape.world_from_object)) < 0;
-                if (shape.reverse_orientation != mirrored) n = -n;
-            } else {
-                const Sphere& sphere = std::get<Sphere>(shape.geometry);
-                const double low = std::max(sphere.z_min, -sphere.radius);
-                const double high = std::min(sphere.z_max, sphere.radius);
-                const double z = low + static_cast<double>(u.x) * (high - low);
-                const double phi = static_cast<double>(u.y) * sphere.phi_max_deg * pi / 180;
-                const double r = std::sqrt(std::max(0.0, sphere.radius * sphere.radius - z * z));
-                const glm::dvec3 object(r * std::cos(phi), r * std::sin(phi), z);
-                p = glm::vec3(shape.world_from_object * glm::dvec4(object, 1));
-                n = glm::normalize(glm::vec3(glm::dmat3(shape.world_from_object) * object));
-                if (shape.reverse_orientation) n = -n;
-            }
-            const glm::vec3 to = p - at;
-            const float distance2 = glm::dot(to, to);
-            s.light = shape.area_light;
-            if (!(distance2 > 0) || !(e.area > 0)) return s;
-            s.distance = std::sqrt(distance2);
-            s.d = to / s.distance;
-            const float cosine = -glm::dot(n, s.d);
-            const bool lit = scene_.area_lights[shape.area_light].two_sided || cosine > 0;
-            if (lit && cosine != 0) s.pdf = choice * distance2 / (std::abs(cosine) * e.area);
+        case Kind::area:
+            sample_area(e, p, at, u, &s);
             break;
-        }
     }
     return s;
 }

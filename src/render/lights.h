@@ -14,7 +14,9 @@
 namespace drude {
 
 // Emitters are whole infinite and distant lights, and single triangles and spheres of area lights.
-// One is picked in proportion to an estimate of the power it sends to the scene.
+// One is picked in proportion to an estimate of the power it sends to the scene; a tenth of the
+// picks goes to every light alike, because what power says of a lamp in a wide landscape is little,
+// and because a distant light that is never picked would be lost.
 class Lights {
   public:
     // Reads the environments' pictures. `scene` and `geometry` must outlive it.
@@ -27,6 +29,7 @@ class Lights {
         int light = -1;         // index in the scene's list of that kind
         glm::vec3 d{0};         // towards the light, unit
         float distance = 0;     // infinite for lights without a place
+        glm::vec3 target{0};    // a point so close before the light that nothing stands between
         float pdf = 0;          // per solid angle, choice of the light included; 0: no sample
         bool is_delta = false;  // no lobe sample ever finds it; pdf is then the choice's alone
         glm::vec3 rgb{0};       // radiance from an environment's picture
@@ -53,15 +56,21 @@ class Lights {
         Kind kind;
         int index;  // of the light (infinite, distant) or of the shape (area)
         unsigned primitive = 0;
-        float area = 0;
+        float area = 0;  // of a triangle in the world, of a sphere in its own space
     };
-    void add(const Emitter& emitter, double power);
+    // `emitter` and those added since `first_of_light` are one light.
+    void add(const Emitter& emitter, double power, size_t first_of_light);
+    void make_choice();
+    float choice(size_t emitter) const;
+    void sample_area(const Emitter& emitter, float choice, const glm::vec3& at, const glm::vec2& u,
+                     Sample* sample) const;
 
     const Scene& scene_;
     const Geometry& geometry_;
     std::vector<Infinite> infinite_;
     std::vector<Emitter> emitters_;
     std::vector<double> power_;
+    std::vector<size_t> light_of_;     // first emitter of the light that an emitter belongs to
     std::vector<float> cdf_;           // cumulative probability of the emitters
     std::vector<int> first_of_shape_;  // emitter of a shape's first primitive, or -1
     std::vector<std::string> warnings_;

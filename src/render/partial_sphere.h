@@ -6,6 +6,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 
 #include "materials/scalar.h"
 #include "scene/scene.h"
@@ -42,6 +43,19 @@ class PartialSphere {
     // Outward normal in the world at a point of the object's surface, unit.
     glm::dvec3 world_normal(const glm::dvec3& object_point) const {
         return glm::normalize(glm::transpose(glm::dmat3(object_from_world_)) * object_point);
+    }
+    // World area per object area where the object's outward normal is n (unit): that of a surface
+    // element is |det M| |M^-T n|.
+    double area_stretch(const glm::dvec3& n) const {
+        return std::abs(glm::determinant(glm::dmat3(world_from_object_))) *
+               glm::length(glm::transpose(glm::dmat3(object_from_world_)) * n);
+    }
+    // What rounding in double does to the world's coordinates of a point of the surface.
+    double rounding() const {
+        double size = glm::length(glm::dvec3(world_from_object_[3]));
+        for (int i = 0; i < 3; ++i)
+            size += radius_ * glm::length(glm::dvec3(world_from_object_[i]));
+        return 16 * std::numeric_limits<double>::epsilon() * size;
     }
     // The point of the surface on the same radius, in object space.
     glm::dvec3 on_surface(const glm::dvec3& object_point) const {

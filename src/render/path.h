@@ -44,7 +44,7 @@ class PathTracer {
             }
         };
 
-        for (int depth = 0, passed = 0;;) {
+        for (int depth = 0;;) {
             Hit hit;
             ++statistics->rays;
             if (!geometry_.intersect(o, d, &hit)) {
@@ -62,11 +62,6 @@ class PathTracer {
                     lobe_pdf > 0 ? mis(lobe_pdf, lights_.area_pdf(hit, d, distance)) : 1;
                 add(throughput.unpolarised(tables_.area_radiance[shape.area_light][phase]), weight,
                     depth);
-            }
-            if (shape.material < 0) {
-                if (++passed > 1000) return;
-                o = leave(hit, d);
-                continue;
             }
             if (depth++ == max_depth) return;
 
@@ -139,7 +134,9 @@ class PathTracer {
             const float alive = max_lane(throughput.corner());
             if (!(alive > 0)) return;
             if (depth > 2) {
-                const float survival = std::clamp(alive, 0.05f, 1.0f);
+                // Between perfect mirrors nothing else would ever end a path.
+                const float at_most = depth > 64 ? 0.95f : 1.0f;
+                const float survival = std::clamp(alive, 0.05f, at_most);
                 if (survival < 1) {
                     if (sampler.next_1d() >= survival) return;
                     throughput.scale(1 / survival);
@@ -189,9 +186,11 @@ class PathTracer {
     bool visible(const Hit& hit, const Lights::Sample& l, PathStatistics* statistics) const {
         if (!(glm::dot(l.d, hit.ng) > 0)) return false;
         ++statistics->rays;
-        // Short of the light itself by more than the light's own rounding.
-        const float distance = std::isinf(l.distance) ? l.distance : l.distance * (1 - 1e-4f);
-        return !geometry_.occluded(leave(hit, l.d), l.d, distance);
+        const glm::vec3 from = leave(hit, l.d);
+        if (std::isinf(l.distance)) return !geometry_.occluded(from, l.d, l.distance);
+        const glm::vec3 to = l.target - from;
+        const float distance = glm::length(to);
+        return distance > 0 && !geometry_.occluded(from, to / distance, distance);
     }
 
     template <class ToWorld, class Add>

@@ -41,6 +41,8 @@ double value(const Filter& filter, double x, double radius) {
 
 PixelFilter::Axis PixelFilter::make_axis(const Filter& filter, double radius) {
     Axis axis;
+    // Beyond six sigma a Gaussian has nothing, and a wide radius would leave it between the cells.
+    if (filter.kind == FilterKind::gaussian) radius = std::min(radius, 6 * filter.sigma);
     axis.radius = static_cast<float>(radius);
     if (filter.kind == FilterKind::box) return axis;
     constexpr int cells = 256;

@@ -19,16 +19,19 @@ constexpr int tile_size = 16;
 // Per-pixel sums over batches, in batch order; and of squares, for the variance between batches.
 struct FilmSums {
     int rows;
+    std::vector<int> batches;          // [pixel]; an interrupt leaves some pixels with more
     std::vector<double> sum, squares;  // [pixel][row][c]
     std::vector<float> spectral;       // [row][bin][pixel]
 
     FilmSums(size_t pixels, int rows_, bool with_spectral)
         : rows(rows_),
+          batches(pixels, 0),
           sum(pixels * rows_ * 3),
           squares(pixels * rows_ * 3),
           spectral(with_spectral ? pixels * rows_ * spectral_bins : 0) {}
 
     void add(size_t pixel, size_t pixels, const BatchResult& batch) {
+        ++batches[pixel];
         for (int i = 0; i < rows; ++i) {
             for (int c = 0; c < 3; ++c) {
                 const size_t at = (pixel * rows + i) * 3 + c;
@@ -59,21 +62,23 @@ std::string spectral_channel(int row, int bin) {
     return name;
 }
 
-void fill_image(const FilmSums& sums, int batches, bool stokes, Image* image) {
+// `fewest` batches of any pixel.
+void fill_image(const FilmSums& sums, int fewest, bool stokes, Image* image) {
     const size_t pixels = image->pixels();
     const auto add_colour = [&](const std::string& prefix, int row) {
         for (int c = 0; c < 3; ++c) {
             Channel& channel = image->add(prefix + "RGB"[c]);
             for (size_t p = 0; p < pixels; ++p) {
                 channel.data[p] =
-                    static_cast<float>(sums.sum[(p * sums.rows + row) * 3 + c] / batches);
+                    static_cast<float>(sums.sum[(p * sums.rows + row) * 3 + c] / sums.batches[p]);
             }
         }
-        if (batches < 2) return;
+        if (fewest < 2) return;
         for (int c = 0; c < 3; ++c) {
             Channel& channel = image->add("variance." + prefix + "RGB"[c]);
             for (size_t p = 0; p < pixels; ++p) {
                 const size_t at = (p * sums.rows + row) * 3 + c;
+                const int batches = sums.batches[p];
                 const double mean = sums.sum[at] / batches;
                 const double spread = sums.squares[at] / batches - mean * mean;
                 channel.data[p] = static_cast<float>(std::max(0.0, spread) / (batches - 1));
@@ -91,7 +96,7 @@ void fill_image(const FilmSums& sums, int batches, bool stokes, Image* image) {
             const float* bin =
                 &sums.spectral[(static_cast<size_t>(row) * spectral_bins + b) * pixels];
             for (size_t p = 0; p < pixels; ++p) {
-                channel.data[p] = bin[p] / static_cast<float>(batches);
+                channel.data[p] = bin[p] / static_cast<float>(sums.batches[p]);
             }
         }
     }
@@ -165,7 +170,7 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
     std::vector<PathStatistics> statistics(tiles);
 
     // A few passes over the whole picture, each of whole batches: an interrupt then leaves a
-    // complete picture of fewer samples.
+    // complete picture of fewer samples, a few tiles of which may hold more.
     const int passes = std::min(batches, 4);
     Progress progress("render", tiles * passes, options.quiet);
     const auto start = std::chrono::steady_clock::now();
@@ -189,7 +194,6 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
             }
             progress.step();
         });
-        result.batches = last;
         if (interrupted()) {
             result.interrupted = true;
             break;
@@ -202,6 +206,7 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
         result.projections += s.projections;
         result.not_finite += s.not_finite;
     }
+    result.batches = *std::min_element(sums.batches.begin(), sums.batches.end());
     result.samples_per_pixel = result.batches * result.batch_size;
     if (result.projections > 0) {
         result.warnings.push_back(fmt::format(

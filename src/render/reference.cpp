@@ -1,0 +1,361 @@
+#include "render/reference.h"
+
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "base/counter_random.h"
+#include "base/executor.h"
+#include "image/image.h"
+#include "materials/surface.h"
+#include "materials/torrance_sparrow.h"
+#include "render/reference_geometry.h"
+
+namespace drude {
+
+namespace {
+
+using Vec = glm::dvec3;
+using Matrix = Mueller<double>;
+
+// Uniform numbers in [0, 1): a stream for each path.
+class Random {
+  public:
+    Random(uint64_t seed, uint64_t pixel, uint64_t sample) : key_(seed) {
+        counter_ = {static_cast<uint32_t>(pixel), static_cast<uint32_t>(pixel >> 32),
+                    static_cast<uint32_t>(sample), 0};
+    }
+    double operator()() {
+        const PhiloxBlock bits =
+            philox(counter_, {static_cast<uint32_t>(key_), static_cast<uint32_t>(key_ >> 32)});
+        ++counter_[3];
+        return static_cast<double>((uint64_t{bits[0]} << 32 | bits[1]) >> 11) * 0x1p-53;
+    }
+
+  private:
+    uint64_t key_;
+    PhiloxBlock counter_;
+};
+
+double at(const DenseSpectrum& spectrum, double nm) {
+    const double x = nm - spectrum_first_nm;
+    const int i = std::min(spectrum_size - 2, static_cast<int>(x));
+    return spectrum[i] + (x - i) * (spectrum[i + 1] - spectrum[i]);
+}
+
+// Where a unit vector falls in the equal-area square (Clarberg 2008): on the upper hemisphere the
+// vector of length sqrt(1 - z) in the disk, its azimuth laid along squares around the middle; the
+// lower hemisphere is the same seen from below, folded outwards over the edges of the diamond.
+glm::dvec2 equal_area(const Vec& d) {
+    const double r = std::sqrt(std::max(0.0, 1 - std::abs(d.z)));
+    const double quarter = std::atan2(std::abs(d.y), std::abs(d.x)) * 2 / pi;
+    double u = r * (1 - quarter), v = r * quarter;
+    if (d.z < 0) {
+        const double w = u;
+        u = 1 - v;
+        v = 1 - w;
+    }
+    return {(1 + (d.x < 0 ? -u : u)) / 2, (1 + (d.y < 0 ? -v : v)) / 2};
+}
+
+struct Sky {
+    const InfiniteLight& light;
+    Image image;
+    glm::dmat3 light_from_world;
+
+    explicit Sky(const InfiniteLight& l)
+        : light(l), light_from_world(glm::inverse(glm::dmat3(l.world_from_light))) {
+        if (!light.image.empty()) image = light.picture ? *light.picture : read_image(light.image);
+    }
+
+    double radiance(const Vec& d, double nm, const std::array<DenseSpectrum, 3>& basis) const {
+        if (light.image.empty()) return at(light.radiance, nm);
+        const Vec l = glm::normalize(light_from_world * d);
+        glm::dvec2 uv;
+        if (image.width == 2 * image.height) {
+            const double phi = std::atan2(l.y, l.x);
+            uv = {(phi < 0 ? phi + 2 * pi : phi) / (2 * pi),
+                  std::acos(std::clamp(l.z, -1.0, 1.0)) / pi};
+        } else {
+            uv = equal_area(l);
+        }
+        const int x = std::min(image.width - 1, static_cast<int>(uv.x * image.width));
+        const int y = std::min(image.height - 1, static_cast<int>(uv.y * image.height));
+        double sum = 0;
+        for (int c = 0; c < 3; ++c) {
+            const Channel* channel = image.find(std::string(1, "RGB"[c]));
+            if (!channel) channel = &image.at("Y", light.image);
+            const double value =
+                static_cast<double>(channel->data[static_cast<size_t>(y) * image.width + x]);
+            if (value > 0 && std::isfinite(value)) sum += value * at(basis[c], nm);
+        }
+        return light.scale * sum;
+    }
+};
+
+class ReferenceTracer {
+  public:
+    ReferenceTracer(const Scene& scene, const ReferenceOptions& options)
+        : scene_(scene), options_(options), geometry_(scene) {
+        for (const InfiniteLight& light : scene.infinite_lights) skies_.emplace_back(light);
+        for (int c = 0; c < 3; ++c) {
+            RGB primary{0, 0, 0};
+            primary[c] = 1;
+            basis_[c] = rgb_illuminant(primary);
+        }
+        for (const SurfaceMaterial& material : scene.materials) {
+            lobes_.emplace_back();
+            const auto* metal = std::get_if<ConductorMaterial>(&material);
+            if (!metal) continue;
+            const Material& s = metal->surface;
+            lobes_.back() = metal->alpha >= 0
+                                ? Microfacets<double>::from_alpha(metal->alpha, s.masking)
+                                : Microfacets<double>(s.lobe, s.masking, s.beta);
+        }
+        const glm::dmat3 axes(scene.camera.world_from_camera);
+        handedness_ = glm::determinant(axes) > 0 ? -1 : 1;
+    }
+
+    // Adds nothing; returns S0..S3 at each of `nm` for one camera ray through (x, y) in pixels.
+    std::vector<Stokes<double>> trace(double x, double y, const std::vector<double>& nm,
+                                      Random& random, uint64_t* rays) const {
+        const Camera& camera = scene_.camera;
+        const double* w = camera.screen_window;
+        const double tangent = std::tan(camera.fov_deg * pi / 360);
+        const Vec film((w[0] + (w[1] - w[0]) * x / scene_.film.width) * tangent,
+                       (w[3] - (w[3] - w[2]) * y / scene_.film.height) * tangent, 1);
+        const glm::dmat3 axes(camera.world_from_camera);
+        Vec d = glm::normalize(axes * film);
+        Vec o(camera.world_from_camera[3]);
+        // The x axis of the frame on the ray that is being followed, which light travels along -d.
+        Vec frame = glm::cross(d, glm::normalize(axes[1]));
+        if (glm::length(frame) < 1e-6) frame = axes[0] - glm::dot(axes[0], d) * d;
+        frame = glm::normalize(frame);
+
+        std::vector<Stokes<double>> sum(nm.size(), Stokes<double>{{0, 0, 0, 0}});
+        std::vector<Matrix> path(nm.size(), Matrix::identity());
+        const auto add = [&](size_t i, const Matrix& m, double radiance) {
+            for (int row = 0; row < 4; ++row) sum[i][row] += m.m[row][0] * radiance;
+        };
+        int from = -1;
+        for (int depth = 0;; ++depth) {
+            ReferenceHit hit;
+            ++*rays;
+            if (!geometry_.intersect(o, d, from, &hit)) {
+                for (const Sky& sky : skies_) {
+                    for (size_t i = 0; i < nm.size(); ++i) {
+                        add(i, path[i], sky.radiance(d, nm[i], basis_));
+                    }
+                }
+                return sum;
+            }
+            const Shape& shape = scene_.shapes[hit.shape];
+            if (shape.area_light >= 0) {
+                const AreaLight& light = scene_.area_lights[shape.area_light];
+                if (light.two_sided || glm::dot(hit.ng, d) < 0) {
+                    for (size_t i = 0; i < nm.size(); ++i) {
+                        add(i, path[i], at(light.radiance, nm[i]));
+                    }
+                }
+            }
+            if (depth == scene_.max_depth) return sum;
+            const Vec out = -d;
+            if (glm::dot(hit.ng, out) < 0) hit.ng = -hit.ng, hit.ns = -hit.ns;
+            if (glm::dot(hit.ns, out) <= 0) hit.ns = hit.ng;
+
+            for (const DistantLight& light : scene_.distant_lights) {
+                const Vec in = -light.direction;
+                if (!(glm::dot(in, hit.ng) > 0) || is_mirror(shape.material)) continue;
+                ReferenceHit blocker;
+                ++*rays;
+                if (geometry_.intersect(hit.p, in, hit.primitive, &blocker)) continue;
+                const Vec in_frame = any_perpendicular(in);
+                for (size_t i = 0; i < nm.size(); ++i) {
+                    const Matrix m =
+                        scatter(shape.material, nm[i], hit.ns, in, in_frame, out, frame);
+                    add(i, path[i] * m, at(light.irradiance, nm[i]));
+                }
+            }
+
+            Vec in, facet(0.0);
+            const double weight = choose(shape.material, hit.ns, out, random, &in, &facet);
+            if (!(weight > 0) || !(glm::dot(in, hit.ng) > 0)) return sum;
+            // A frame that has nothing to do with the plane of incidence.
+            const Vec in_frame = any_perpendicular(in);
+            for (size_t i = 0; i < nm.size(); ++i) {
+                Matrix m =
+                    glm::length(facet) > 0
+                        ? facet_matrix(shape.material, nm[i], facet, in, in_frame, out, frame)
+                        : scatter(shape.material, nm[i], hit.ns, in, in_frame, out, frame);
+                for (auto& row : m.m) {
+                    for (double& element : row) element *= weight;
+                }
+                path[i] = path[i] * m;
+            }
+            o = hit.p;
+            d = in;
+            frame = in_frame;
+            from = hit.primitive;
+        }
+    }
+
+  private:
+    bool is_mirror(int material) const {
+        return std::holds_alternative<ConductorMaterial>(scene_.materials[material]) &&
+               lobes_[material].is_mirror();
+    }
+
+    Reflection<double> facet_reflection(int material, double nm, double cosine) const {
+        const auto& metal = std::get<ConductorMaterial>(scene_.materials[material]);
+        if (metal.reflectance) {
+            const double r = at(*metal.reflectance, nm);
+            return {r, r, -r, 0};
+        }
+        return reflect(metal.surface, nm, cosine);
+    }
+
+    // The Mueller matrix of one facet of normal m between the frames.
+    Matrix facet_matrix(int material, double nm, const Vec& m, const Vec& in, const Vec& in_frame,
+                        const Vec& out, const Vec& out_frame) const {
+        const Vec s = s_axis(-in, m);
+        const Rotation<double> to_s = rotation_between(-in, in_frame, s, handedness_);
+        const Rotation<double> from_s = inverse(rotation_between(out, out_frame, s, handedness_));
+        const double cosine = std::min(1.0, glm::dot(in, m));
+        return mueller(from_s) * mueller(facet_reflection(material, nm, cosine)) * mueller(to_s);
+    }
+
+    // The surface's Mueller matrix from `in` to `out` times cos_in, per solid angle.
+    Matrix scatter(int material, double nm, const Vec& n, const Vec& in, const Vec& in_frame,
+                   const Vec& out, const Vec& out_frame) const {
+        const double cosine = glm::dot(in, n);
+        if (const auto* diffuse = std::get_if<DiffuseMaterial>(&scene_.materials[material])) {
+            const double r = cosine > 0 ? at(diffuse->reflectance, nm) * cosine / pi : 0;
+            return Matrix::diagonal(r, 0, 0, 0);
+        }
+        const auto e = lobes_[material].evaluate(to_local(n, out), to_local(n, in));
+        if (!(e.value > 0)) return Matrix::diagonal(0, 0, 0, 0);
+        Matrix m =
+            facet_matrix(material, nm, glm::normalize(in + out), in, in_frame, out, out_frame);
+        for (auto& row : m.m) {
+            for (double& element : row) element *= e.value;
+        }
+        return m;
+    }
+
+    // A direction for the path and what it is worth. With a facet (not zero), the weight is the
+    // scattering over the density without the facet's own reflection; otherwise it is one over the
+    // density.
+    double choose(int material, const Vec& n, const Vec& out, Random& random, Vec* in,
+                  Vec* facet) const {
+        const Vec tangent = any_perpendicular(n), bitangent = glm::cross(n, tangent);
+        const auto to_world = [&](const Vec& v) {
+            return glm::normalize(v.x * tangent + v.y * bitangent + v.z * n);
+        };
+        if (is_mirror(material)) {
+            *facet = n;
+            *in = glm::normalize(2 * glm::dot(out, n) * n - out);
+            return 1;
+        }
+        const double u1 = random(), u2 = random(), u3 = random();
+        const bool is_diffuse = std::holds_alternative<DiffuseMaterial>(scene_.materials[material]);
+        if (options_.directions == ReferenceOptions::Directions::hemisphere || is_diffuse) {
+            // Uniform: cos = u1; in proportion to the cosine: cos^2 = u1.
+            const bool uniform = options_.directions == ReferenceOptions::Directions::hemisphere;
+            const double z = uniform ? u1 : std::sqrt(u1), r = std::sqrt(1 - z * z);
+            *in = to_world({r * std::cos(2 * pi * u2), r * std::sin(2 * pi * u2), z});
+            if (!(z > 0)) return 0;
+            return uniform ? 2 * pi : pi / z;
+        }
+        const auto s = lobes_[material].sample(to_local(n, out), u1, u2, u3);
+        *in = to_world(s.i);
+        *facet = to_world(s.m);
+        return s.pdf > 0 ? s.weight : 0;
+    }
+
+    static Vec to_local(const Vec& n, const Vec& v) {
+        const Vec tangent = any_perpendicular(n);
+        return {glm::dot(v, tangent), glm::dot(v, glm::cross(n, tangent)), glm::dot(v, n)};
+    }
+
+    const Scene& scene_;
+    const ReferenceOptions& options_;
+    ReferenceGeometry geometry_;
+    std::vector<Sky> skies_;
+    std::array<DenseSpectrum, 3> basis_;
+    std::vector<Microfacets<double>> lobes_;  // by material
+    double handedness_;
+};
+
+void check(const Scene& scene, const ReferenceOptions& options) {
+    if (scene.filter.kind != FilterKind::box) {
+        user_error("the reference integrator knows box filters only; use PixelFilter \"box\"");
+    }
+    if (options.samples_per_pixel < 2) {
+        user_error("{} samples a pixel; expected at least 2, for a standard error",
+                   options.samples_per_pixel);
+    }
+    if (options.bands_nm.empty()) user_error("no band of wavelengths; expected at least one");
+    for (const auto& band : options.bands_nm) {
+        if (band.empty()) user_error("a band without wavelengths; expected at least one");
+        for (const double nm : band) {
+            if (!(nm >= spectrum_first_nm && nm <= spectrum_last_nm)) {
+                user_error("a wavelength of {} nm; expected {} to {}", nm, spectrum_first_nm,
+                           spectrum_last_nm);
+            }
+        }
+    }
+}
+
+}  // namespace
+
+ReferenceResult render_reference(const Scene& scene, const ReferenceOptions& options) {
+    check(scene, options);
+    const ReferenceTracer tracer(scene, options);
+    ReferenceResult result;
+    result.width = scene.film.width;
+    result.height = scene.film.height;
+    result.bands = static_cast<int>(options.bands_nm.size());
+    const size_t bands = options.bands_nm.size();
+    const size_t pixels = static_cast<size_t>(result.width) * static_cast<size_t>(result.height);
+    result.values.resize(pixels * bands);
+    std::atomic<uint64_t> rays{0};
+    parallel_for(pixels, options.threads, [&](size_t pixel) {
+        const int n = options.samples_per_pixel;
+        std::vector<std::array<double, 4>> sum(bands), squares(bands);
+        std::vector<double> nm(bands);
+        uint64_t own_rays = 0;
+        for (int sample = 0; sample < n; ++sample) {
+            Random random(options.seed, pixel, static_cast<uint64_t>(sample));
+            const double dx = (2 * random() - 1) * scene.filter.radius_x;
+            const double dy = (2 * random() - 1) * scene.filter.radius_y;
+            for (size_t b = 0; b < bands; ++b) {
+                const auto& band = options.bands_nm[b];
+                nm[b] = band[static_cast<size_t>(random() * static_cast<double>(band.size()))];
+            }
+            const auto stokes = tracer.trace(
+                static_cast<double>(pixel % static_cast<size_t>(result.width)) + 0.5 + dx,
+                static_cast<double>(pixel / static_cast<size_t>(result.width)) + 0.5 + dy, nm,
+                random, &own_rays);
+            for (size_t b = 0; b < bands; ++b) {
+                for (int i = 0; i < 4; ++i) {
+                    sum[b][i] += stokes[b][i];
+                    squares[b][i] += stokes[b][i] * stokes[b][i];
+                }
+            }
+        }
+        for (size_t b = 0; b < bands; ++b) {
+            ReferenceResult::Value& value = result.values[pixel * bands + b];
+            for (int i = 0; i < 4; ++i) {
+                value.mean[i] = sum[b][i] / n;
+                const double spread = squares[b][i] / n - value.mean[i] * value.mean[i];
+                value.standard_error[i] = std::sqrt(std::max(0.0, spread) / (n - 1));
+            }
+        }
+        rays += own_rays;
+    });
+    result.rays = rays;
+    return result;
+}
+
+}  // namespace drude
