@@ -7,10 +7,10 @@
 
 #include "base/counter_random.h"
 #include "base/executor.h"
-#include "image/image.h"
 #include "materials/surface.h"
 #include "materials/torrance_sparrow.h"
 #include "render/reference_geometry.h"
+#include "render/reference_light.h"
 
 namespace drude {
 
@@ -38,72 +38,11 @@ class Random {
     PhiloxBlock counter_;
 };
 
-double at(const DenseSpectrum& spectrum, double nm) {
-    const double x = nm - spectrum_first_nm;
-    const int i = std::min(spectrum_size - 2, static_cast<int>(x));
-    return spectrum[i] + (x - i) * (spectrum[i + 1] - spectrum[i]);
-}
-
-// Where a unit vector falls in the equal-area square (Clarberg 2008): on the upper hemisphere the
-// vector of length sqrt(1 - z) in the disk, its azimuth laid along squares around the middle; the
-// lower hemisphere is the same seen from below, folded outwards over the edges of the diamond.
-glm::dvec2 equal_area(const Vec& d) {
-    const double r = std::sqrt(std::max(0.0, 1 - std::abs(d.z)));
-    const double quarter = std::atan2(std::abs(d.y), std::abs(d.x)) * 2 / pi;
-    double u = r * (1 - quarter), v = r * quarter;
-    if (d.z < 0) {
-        const double w = u;
-        u = 1 - v;
-        v = 1 - w;
-    }
-    return {(1 + (d.x < 0 ? -u : u)) / 2, (1 + (d.y < 0 ? -v : v)) / 2};
-}
-
-struct Sky {
-    const InfiniteLight& light;
-    Image image;
-    glm::dmat3 light_from_world;
-
-    explicit Sky(const InfiniteLight& l)
-        : light(l), light_from_world(glm::inverse(glm::dmat3(l.world_from_light))) {
-        if (!light.image.empty()) image = light.picture ? *light.picture : read_image(light.image);
-    }
-
-    double radiance(const Vec& d, double nm, const std::array<DenseSpectrum, 3>& basis) const {
-        if (light.image.empty()) return at(light.radiance, nm);
-        const Vec l = glm::normalize(light_from_world * d);
-        glm::dvec2 uv;
-        if (image.width == 2 * image.height) {
-            const double phi = std::atan2(l.y, l.x);
-            uv = {(phi < 0 ? phi + 2 * pi : phi) / (2 * pi),
-                  std::acos(std::clamp(l.z, -1.0, 1.0)) / pi};
-        } else {
-            uv = equal_area(l);
-        }
-        const int x = std::min(image.width - 1, static_cast<int>(uv.x * image.width));
-        const int y = std::min(image.height - 1, static_cast<int>(uv.y * image.height));
-        double sum = 0;
-        for (int c = 0; c < 3; ++c) {
-            const Channel* channel = image.find(std::string(1, "RGB"[c]));
-            if (!channel) channel = &image.at("Y", light.image);
-            const double value =
-                static_cast<double>(channel->data[static_cast<size_t>(y) * image.width + x]);
-            if (value > 0 && std::isfinite(value)) sum += value * at(basis[c], nm);
-        }
-        return light.scale * sum;
-    }
-};
-
 class ReferenceTracer {
   public:
     ReferenceTracer(const Scene& scene, const ReferenceOptions& options)
         : scene_(scene), options_(options), geometry_(scene) {
         for (const InfiniteLight& light : scene.infinite_lights) skies_.emplace_back(light);
-        for (int c = 0; c < 3; ++c) {
-            RGB primary{0, 0, 0};
-            primary[c] = 1;
-            basis_[c] = rgb_illuminant(primary);
-        }
         for (const SurfaceMaterial& material : scene.materials) {
             lobes_.emplace_back();
             const auto* metal = std::get_if<ConductorMaterial>(&material);
@@ -117,7 +56,7 @@ class ReferenceTracer {
         handedness_ = glm::determinant(axes) > 0 ? -1 : 1;
     }
 
-    // Adds nothing; returns S0..S3 at each of `nm` for one camera ray through (x, y) in pixels.
+    // S0..S3 at each of `nm` for one camera ray through (x, y) in pixels.
     std::vector<Stokes<double>> trace(double x, double y, const std::vector<double>& nm,
                                       Random& random, uint64_t* rays) const {
         const Camera& camera = scene_.camera;
@@ -143,9 +82,9 @@ class ReferenceTracer {
             ReferenceHit hit;
             ++*rays;
             if (!geometry_.intersect(o, d, from, &hit)) {
-                for (const Sky& sky : skies_) {
+                for (const ReferenceSky& sky : skies_) {
                     for (size_t i = 0; i < nm.size(); ++i) {
-                        add(i, path[i], sky.radiance(d, nm[i], basis_));
+                        add(i, path[i], sky.radiance(d, nm[i]));
                     }
                 }
                 return sum;
@@ -155,7 +94,7 @@ class ReferenceTracer {
                 const AreaLight& light = scene_.area_lights[shape.area_light];
                 if (light.two_sided || glm::dot(hit.ng, d) < 0) {
                     for (size_t i = 0; i < nm.size(); ++i) {
-                        add(i, path[i], at(light.radiance, nm[i]));
+                        add(i, path[i], spectrum_at(light.radiance, nm[i]));
                     }
                 }
             }
@@ -174,7 +113,7 @@ class ReferenceTracer {
                 for (size_t i = 0; i < nm.size(); ++i) {
                     const Matrix m =
                         scatter(shape.material, nm[i], hit.ns, in, in_frame, out, frame);
-                    add(i, path[i] * m, at(light.irradiance, nm[i]));
+                    add(i, path[i] * m, spectrum_at(light.irradiance, nm[i]));
                 }
             }
 
@@ -209,7 +148,7 @@ class ReferenceTracer {
     Reflection<double> facet_reflection(int material, double nm, double cosine) const {
         const auto& metal = std::get<ConductorMaterial>(scene_.materials[material]);
         if (metal.reflectance) {
-            const double r = at(*metal.reflectance, nm);
+            const double r = spectrum_at(*metal.reflectance, nm);
             return {r, r, -r, 0};
         }
         return reflect(metal.surface, nm, cosine);
@@ -230,7 +169,7 @@ class ReferenceTracer {
                    const Vec& out, const Vec& out_frame) const {
         const double cosine = glm::dot(in, n);
         if (const auto* diffuse = std::get_if<DiffuseMaterial>(&scene_.materials[material])) {
-            const double r = cosine > 0 ? at(diffuse->reflectance, nm) * cosine / pi : 0;
+            const double r = cosine > 0 ? spectrum_at(diffuse->reflectance, nm) * cosine / pi : 0;
             return Matrix::diagonal(r, 0, 0, 0);
         }
         const auto e = lobes_[material].evaluate(to_local(n, out), to_local(n, in));
@@ -281,8 +220,7 @@ class ReferenceTracer {
     const Scene& scene_;
     const ReferenceOptions& options_;
     ReferenceGeometry geometry_;
-    std::vector<Sky> skies_;
-    std::array<DenseSpectrum, 3> basis_;
+    std::vector<ReferenceSky> skies_;
     std::vector<Microfacets<double>> lobes_;  // by material
     double handedness_;
 };

@@ -125,6 +125,20 @@ TEST(Robustness, ShapesWithoutMaterialAreNotThere) {
     EXPECT_NEAR(mean_of(result.image, "G"), 1, 0.05);
 }
 
+// The picture says on which instruction set it was made: naming that set gives the same bits.
+TEST(Robustness, ThePictureNamesItsInstructionSet) {
+    const Scene scene = sphere_under_sky("Material \"conductor\" \"float roughness\" 0.2", 16);
+    const RenderResult result = render_quietly(scene, 16);
+    const std::string set = result.image.text("instructionSet");
+    RenderOptions options;
+    options.samples_per_pixel = 16;
+    options.quiet = true;
+    options.isa = set.substr(set.find('/') + 1);
+    const RenderResult again = render(scene, options);
+    EXPECT_EQ(again.image.text("instructionSet"), set);
+    EXPECT_EQ(again.image.find("G")->data, result.image.find("G")->data);
+}
+
 TEST(Robustness, TheStoredVarianceIsThatOverSeeds) {
     Scene scene = sphere_under_sky(
         "LightSource \"distant\" \"point3 from\" [1 1 -2]\n"
