@@ -1,6 +1,7 @@
 #include "fitter/import_woollam.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -60,6 +61,19 @@ std::optional<std::string> bracketed(std::string_view line, std::string_view lab
     return utf8(line.substr(0, line.find_last_of(']')));
 }
 
+// The unit of a line that holds nothing but it, TRIG, and the names of the columns in their order.
+std::optional<SpectralUnit> unit_of_line(const std::vector<Word>& words) {
+    constexpr std::array<const char*, 3> names = {"aoi", "psi", "delta"};
+    size_t named = 0;
+    for (size_t i = 1; i < words.size(); ++i) {
+        const std::string word = lower_case(words[i].text);
+        if (word == "trig") continue;
+        if (named < names.size() && word != names[named]) return std::nullopt;
+        ++named;
+    }
+    return spectral_unit(words[0].text);
+}
+
 Head read_head(const std::vector<TextLine>& lines) {
     Head head;
     // The first line of data ends the head; up to VASEmethod everything is title, even numbers.
@@ -83,7 +97,7 @@ Head read_head(const std::vector<TextLine>& lines) {
         } else {
             // The last such line before the data; an earlier one was the title.
             if (head.unit_line > 0 && head.title.empty()) head.title = head.unit_text;
-            const auto unit = spectral_unit(words[0].text);
+            const auto unit = unit_of_line(words);
             head.has_unit_line = unit.has_value();
             head.unit = unit.value_or(SpectralUnit::nm);
             head.unit_line = lines[i].number;
