@@ -24,6 +24,27 @@ std::string yaml_string(const std::string& text) {
     return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+// The decimal point three places to the left: nanometres as micrometres without a rounding, so that
+// reading them back gives the same bits.
+std::string thousandth(double value) {
+    std::string text = format_double(value);
+    const size_t exponent = text.find('e');
+    if (exponent != std::string::npos) {
+        const auto power = parse_integer(text[exponent + 1] == '+' ? text.substr(exponent + 2)
+                                                                   : text.substr(exponent + 1));
+        return fmt::format("{}e{}", text.substr(0, exponent), power.value_or(0) - 3);
+    }
+    size_t point = text.find('.');
+    if (point == std::string::npos) point = text.size();
+    const std::string fraction = point < text.size() ? text.substr(point + 1) : "";
+    std::string digits = std::string(point < 4 ? 4 - point : 0, '0') + text.substr(0, point);
+    digits.insert(digits.size() - 3, ".");
+    digits += fraction;
+    digits.erase(digits.find_last_not_of('0') + 1);
+    if (digits.back() == '.') digits.pop_back();
+    return digits;
+}
+
 std::string comments(const OpticalConstants& constants) {
     std::string text = fmt::format("# name: {}\n", one_line(constants.name));
     const auto add = [&](const char* key, const std::string& value) {
@@ -67,7 +88,7 @@ std::string format_refractiveindex_info(const OpticalConstants& constants) {
                         yaml_string(fmt::format("{} ({})", constants.name, constants.kind)));
     text += "DATA:\n  - type: tabulated nk\n    data: |\n";
     for (size_t i = 0; i < constants.n.size(); ++i) {
-        text += fmt::format("        {} {} {}\n", format_double(constants.wavelength_nm[i] / 1000),
+        text += fmt::format("        {} {} {}\n", thousandth(constants.wavelength_nm[i]),
                             format_double(constants.n[i]), format_double(constants.k[i]));
     }
     return text;

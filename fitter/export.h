@@ -15,7 +15,8 @@ enum class IndexPart { n, k };
 // added at 360 and 830 nm, the ends of their range, where the table does not reach them.
 std::string format_spd(const OpticalConstants& constants, IndexPart part);
 
-// The YAML of refractiveindex.info ("tabulated nk", wavelengths in micrometres).
+// The YAML of refractiveindex.info ("tabulated nk", wavelengths in micrometres). Read back
+// (import_refractiveindex.h), the numbers are the same to the last bit.
 std::string format_refractiveindex_info(const OpticalConstants& constants);
 
 // "# key: value" lines, then wavelength_nm,n,k[,sigma_n,sigma_k].

@@ -1,44 +1,85 @@
 #include "fitter/import.h"
 
 #include <algorithm>
+#include <array>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "fitter/import_accurion.h"
+#include "fitter/import_filmsense.h"
+#include "fitter/import_horiba.h"
 #include "fitter/import_spectraray.h"
+#include "fitter/import_table.h"
+#include "fitter/import_text.h"
+#include "fitter/import_woollam.h"
 
 namespace drude {
 
 namespace {
 
-// The first line that is neither blank nor a "#" comment.
-std::string_view first_line_of_content(std::string_view text) {
-    if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
-    while (!text.empty()) {
-        const size_t end = std::min(text.find('\n'), text.size());
-        std::string_view line = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
-        const size_t begin = line.find_first_not_of(" \t\r");
-        if (begin == std::string_view::npos || line[begin] == '#') continue;
-        return line.substr(begin);
+bool is_csv(const std::string& text) {
+    for (const TextLine& line : lines_of(std::string_view(text).substr(0, 65536))) {
+        const std::vector<Word> words = split_blanks(line.text);
+        if (words.empty() || words[0].text[0] == '#') continue;
+        // The table of optical constants begins the same way (import_constants.h).
+        return line.text.find("wavelength_nm") != line.text.npos &&
+               line.text.find(',') != line.text.npos &&
+               lower_case(line.text).find(",n,k") == std::string::npos;
     }
-    return {};
+    return false;
+}
+
+bool is_wvase(const std::string& text) {
+    return is_woollam(text) && !is_complete_ease(text);
+}
+bool is_completeease(const std::string& text) {
+    return is_woollam(text) && is_complete_ease(text);
+}
+
+struct Format {
+    const char* name;
+    bool (*starts)(const std::string& text);
+    Measurement (*parse)(const std::string& text, const std::string& file);
+};
+
+// In the order in which they are asked: the ones with a mark of their own first.
+constexpr std::array<Format, 8> formats = {
+    {{"spectraray", is_spectraray_psi_delta, parse_spectraray},
+     {"filmsense", is_film_sense, parse_film_sense},
+     {"completeease", is_completeease, parse_woollam},
+     {"wvase", is_wvase, parse_woollam},
+     {"accurion", is_accurion, parse_accurion},
+     {"csv", is_csv, parse_measurement},
+     {"horiba", is_horiba, parse_horiba},
+     {"table", is_named_table, parse_named_table}}};
+
+[[noreturn]] void none_of_them(const std::string& text, const std::string& file) {
+    const std::string_view start = std::string_view(text).substr(0, 2);
+    const bool empty = text.find_first_not_of(" \t\r\n") == std::string::npos;
+    if (start == "\xFF\xFE" || start == "\xFE\xFF") {
+        user_error("{}: found text in UTF-16, expected UTF-8 or Latin-1: save it as UTF-8", file);
+    }
+    user_error(
+        "{}: {}; expected a measurement of Psi and Delta: a table with the names wavelength_nm,"
+        "angle_deg,psi_deg,delta_deg (csv) or the like (table), or an export of SpectraRay, "
+        "CompleteEASE, WVASE, Accurion, Horiba (.spe) or Film Sense; a table without names is read "
+        "with --format table",
+        file, empty ? "found an empty file" : "found none of the formats known");
 }
 
 }  // namespace
 
 const std::vector<std::string>& measurement_formats() {
-    static const std::vector<std::string> names = {"auto", "csv", "spectraray"};
+    static const std::vector<std::string> names = {"auto",         "csv",       "spectraray",
+                                                   "completeease", "wvase",     "accurion",
+                                                   "horiba",       "filmsense", "table"};
     return names;
 }
 
 std::string recognise_measurement(const std::string& text) {
-    if (is_spectraray_psi_delta(text)) return "spectraray";
-    const std::string_view line = first_line_of_content(text);
-    if (line.find("wavelength_nm") != std::string_view::npos &&
-        line.find(',') != std::string_view::npos) {
-        return "csv";
-    }
-    return "";
+    const auto found = std::find_if(formats.begin(), formats.end(),
+                                    [&](const Format& format) { return format.starts(text); });
+    return found == formats.end() ? "" : found->name;
 }
 
 Measurement parse_measurement_as(const std::string& text, const std::string& file,
@@ -48,19 +89,23 @@ Measurement parse_measurement_as(const std::string& text, const std::string& fil
         user_error("found the format '{}'{}, expected {}", format, did_you_mean(format, known),
                    fmt::join(known, ", "));
     }
-    const std::string found = format == "auto" ? recognise_measurement(text) : format;
-    if (found == "csv") return parse_measurement(text, file);
-    if (found == "spectraray") return parse_spectraray(text, file);
-    const bool empty = text.find_first_not_of(" \t\r\n") == std::string::npos;
-    user_error(
-        "{}: {}; expected a measurement of Psi and Delta: a table with the columns "
-        "wavelength_nm,angle_deg,psi_deg,delta_deg (csv), or an export that starts with "
-        "'; WAVELENGTH' (spectraray)",
-        file, empty ? "found an empty file" : "found none of the formats known");
+    const std::string name = format == "auto" ? recognise_measurement(text) : format;
+    const auto found = std::find_if(formats.begin(), formats.end(),
+                                    [&](const Format& one) { return one.name == name; });
+    if (found == formats.end()) none_of_them(text, file);
+    return found->parse(text, file);
 }
 
 Measurement import_measurement(const std::string& path, const std::string& format) {
     return parse_measurement_as(read_file(path), path, format);
+}
+
+std::vector<std::string> import_warnings(const Measurement& measurement) {
+    std::vector<std::string> warnings;
+    for (const auto& [key, value] : measurement.header) {
+        if (key == "warning") warnings.push_back(value);
+    }
+    return warnings;
 }
 
 }  // namespace drude

@@ -1,63 +1,19 @@
 #include "fitter/import_spectraray.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string_view>
 
 #include "base/error.h"
-#include "base/numbers.h"
+#include "fitter/import_text.h"
 
 namespace drude {
 
 namespace {
 
-struct Word {
-    std::string_view text;
-    int column;
-};
-
-std::vector<Word> split(std::string_view line) {
-    constexpr std::string_view white = " \t\r";
-    std::vector<Word> words;
-    size_t begin = line.find_first_not_of(white);
-    while (begin != std::string_view::npos) {
-        const size_t end = std::min(line.find_first_of(white, begin), line.size());
-        words.push_back({line.substr(begin, end - begin), static_cast<int>(begin + 1)});
-        begin = line.find_first_not_of(white, end);
-    }
-    return words;
-}
-
-// What was found, short and printable, for messages about files in any encoding.
-std::string shown(std::string_view text) {
-    std::string result;
-    for (const char c : text.substr(0, 40)) result += c >= 32 && c < 127 ? c : '?';
-    return text.size() > 40 ? result + "..." : result;
-}
-
-double parse_field(const Word& word, const Place& line) {
-    std::string text(word.text);
-    // A comma can only be the decimal one here: blanks separate the fields.
-    if (std::count(text.begin(), text.end(), ',') == 1 && text.find('.') == std::string::npos) {
-        text[text.find(',')] = '.';
-    }
-    const auto value = parse_double(text);
-    if (!value || !std::isfinite(*value)) {
-        user_error_at({line.file, line.line, word.column}, "found '{}', expected a finite number",
-                      shown(word.text));
-    }
-    return *value;
-}
-
-std::string_view without_byte_order_mark(std::string_view text) {
-    if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
-    return text;
-}
-
 // The words after "; WAVELENGTH" (also written ";WAVELENGTH"), or nothing for another line.
 std::vector<Word> header_angles(std::string_view line, bool* is_header) {
-    std::vector<Word> words = split(line);
+    std::vector<Word> words = split_blanks(line);
     *is_header = false;
     if (words.empty() || words[0].text[0] != ';') return {};
     if (words[0].text == ";") {
@@ -66,9 +22,7 @@ std::vector<Word> header_angles(std::string_view line, bool* is_header) {
         words[0].text.remove_prefix(1);
     }
     if (words.empty()) return {};
-    std::string label(words[0].text);
-    for (char& c : label) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    if (label.substr(0, 10) != "WAVELENGTH") return {};
+    if (lower_case(words[0].text).substr(0, 10) != "wavelength") return {};
     *is_header = true;
     words.erase(words.begin());
     return words;
@@ -76,7 +30,7 @@ std::vector<Word> header_angles(std::string_view line, bool* is_header) {
 
 std::vector<double> parse_angles(const std::vector<Word>& words, const Place& line) {
     std::vector<double> columns;
-    for (const Word& word : words) columns.push_back(parse_field(word, line));
+    for (const Word& word : words) columns.push_back(parse_number(word, line));
     if (columns.empty()) {
         user_error_at(line, "found no angle of incidence after the label, expected each one twice");
     }
@@ -112,12 +66,12 @@ std::vector<double> parse_angles(const std::vector<Word>& words, const Place& li
 }  // namespace
 
 bool is_spectraray_psi_delta(const std::string& text) {
-    std::string_view rest = without_byte_order_mark(text);
-    const size_t begin = rest.find_first_not_of(" \t\r\n");
-    if (begin == std::string_view::npos) return false;
-    rest.remove_prefix(begin);
     bool is_header = false;
-    header_angles(rest.substr(0, std::min(rest.find('\n'), rest.size())), &is_header);
+    for (const TextLine& line : lines_of(std::string_view(text).substr(0, 4096))) {
+        if (split_blanks(line.text).empty()) continue;
+        header_angles(line.text, &is_header);
+        break;
+    }
     return is_header;
 }
 
@@ -127,13 +81,9 @@ Measurement parse_spectraray(const std::string& text, const std::string& file) {
     measurement.header = {{"imported_from", "SpectraRay ASCII"}};
     std::vector<double> angles;
     std::map<double, int> line_of_wavelength;
-    std::string_view rest = without_byte_order_mark(text);
-    for (int number = 1; !rest.empty(); ++number) {
-        const size_t end = std::min(rest.find('\n'), rest.size());
-        const std::string_view line = rest.substr(0, end);
-        rest.remove_prefix(std::min(end + 1, rest.size()));
+    for (const auto& [line, number] : lines_of(text)) {
         const Place place{file, number, 0};
-        const std::vector<Word> words = split(line);
+        const std::vector<Word> words = split_blanks(line);
         if (words.empty()) continue;
         if (angles.empty()) {
             bool is_header = false;
@@ -153,7 +103,7 @@ Measurement parse_spectraray(const std::string& text, const std::string& file) {
                           words.size(), 1 + 2 * angles.size(), angles.size(),
                           angles.size() == 1 ? "" : "s");
         }
-        const double wavelength = parse_field(words[0], place);
+        const double wavelength = parse_number(words[0], place);
         const auto [earlier, is_new] = line_of_wavelength.emplace(wavelength, number);
         if (!is_new) {
             user_error_at(place, "found {} nm twice, on line {} and on line {}", wavelength,
@@ -163,8 +113,8 @@ Measurement parse_spectraray(const std::string& text, const std::string& file) {
             MeasurementRow row;
             row.wavelength_nm = wavelength;
             row.angle_deg = angles[i];
-            row.psi_deg = parse_field(words[1 + 2 * i], place);
-            row.delta_deg = parse_field(words[2 + 2 * i], place);
+            row.psi_deg = parse_number(words[1 + 2 * i], place);
+            row.delta_deg = parse_number(words[2 + 2 * i], place);
             row.line = number;
             measurement.rows.push_back(row);
         }

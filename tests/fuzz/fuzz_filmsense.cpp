@@ -1,0 +1,9 @@
+#include "fitter/import_filmsense.h"
+
+#include "fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    return drude::fuzz_one(data, size, [](const std::string& text) {
+        drude::format_measurement(drude::parse_film_sense(text, "fuzz"));
+    });
+}
