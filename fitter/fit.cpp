@@ -8,6 +8,7 @@
 #include "base/executor.h"
 #include "fitter/film_fit.h"
 #include "fitter/fit_data.h"
+#include "fitter/offset_fit.h"
 #include "fitter/point_fit.h"
 
 namespace drude {
@@ -66,6 +67,22 @@ void check_structure(const FitOptions& options) {
     }
 }
 
+void check_offset(const Measurement& measurement, const FitOptions& options) {
+    if (!options.fit_angle_offset) return;
+    if (options.estimator == "inversion") {
+        user_error(
+            "the estimator inversion takes the angles as they are stated; expected psi-delta "
+            "or rho2 with an angle offset");
+    }
+    const size_t angles = measurement.angles().size();
+    if (angles < 3) {
+        throw Error(Cause::answer_is_no,
+                    fmt::format("a common offset of the angles of incidence takes three angles or "
+                                "more, found {}: with fewer, n and k take it up",
+                                angles));
+    }
+}
+
 void check_options(const FitOptions& options) {
     const auto& models = fit_model_names();
     if (std::find(models.begin(), models.end(), options.model) == models.end()) {
@@ -108,6 +125,7 @@ void scale_sigmas(FitResult* result) {
         point.sigma_n *= scale;
         point.sigma_k *= scale;
     }
+    for (FittedParameter& parameter : result->common) parameter.sigma *= scale;
 }
 
 void warn_about_result(FitResult* result, bool unweighted) {
@@ -174,6 +192,7 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
     const Estimator estimator = parse_estimator(options.estimator);
     check_options(options);
     measurement.check();
+    check_offset(measurement, options);
     if (options.model == "film") return fit_film(measurement, options);
     FitResult result;
     result.estimator = options.estimator;
@@ -188,8 +207,16 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
                                                                   groups.back().wavelength_nm);
         if (!warning.empty()) result.warnings.push_back(warning);
     }
-    parallel_for(groups.size(), options.threads,
-                 [&](size_t i) { result.points[i] = fit_point(groups[i], estimator); });
+    if (options.fit_angle_offset) {
+        OffsetFit fit = fit_with_offset(groups, estimator, options.threads);
+        result.points = std::move(fit.points);
+        result.common = {fit.offset};
+        result.common_correlation = {1};
+        result.parameters = 1;
+    } else {
+        parallel_for(groups.size(), options.threads,
+                     [&](size_t i) { result.points[i] = fit_point(groups[i], estimator); });
+    }
 
     for (const FittedPoint& point : result.points) {
         if (!point.identifiable) continue;
@@ -197,7 +224,7 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
         result.data += point.data;
         result.parameters += 2;
     }
-    if (result.parameters == 0) {
+    if (result.data == 0) {
         throw Error(Cause::answer_is_no,
                     fmt::format("{}: no fit: at none of the {} wavelengths do the data determine n "
                                 "and k ({})",

@@ -10,43 +10,11 @@
 #include "base/error.h"
 #include "fitter/identifiability.h"
 #include "fitter/inversion.h"
-#include "fitter/residuals.h"
+#include "fitter/point_residuals.h"
 
 namespace drude {
 
 namespace {
-
-// All residuals of a wavelength as a function of (n, k).
-struct PointResiduals {
-    const WavelengthData* data;
-    Estimator estimator;
-
-    int count() const {
-        const int points = static_cast<int>(data->points.size());
-        return estimator == Estimator::rho2 ? points : 2 * points;
-    }
-
-    template <class T>
-    bool operator()(const T* index, T* residuals) const {
-        const ComplexIndex<T> nk{index[0], index[1]};
-        std::vector<ThinFilm<T>> layers;
-        for (const ThinFilm<double>& layer : data->layers) {
-            layers.push_back({{T(layer.index.n), T(layer.index.k)}, T(layer.thickness)});
-        }
-        for (const AnglePoint& point : data->points) {
-            const Reflection<T> model = reflect(layers.data(), static_cast<int>(layers.size()), nk,
-                                                T(point.cos_theta), T(data->wavelength_nm));
-            if (estimator == Estimator::rho2) {
-                if (!rho2_residual(point, model, residuals)) return false;
-                residuals += 1;
-            } else {
-                if (!psi_delta_residuals(point, model, residuals)) return false;
-                residuals += 2;
-            }
-        }
-        return true;
-    }
-};
 
 using PointCost = ceres::AutoDiffCostFunction<PointResiduals, ceres::DYNAMIC, 2>;
 
