@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -16,6 +17,7 @@
 #include "cli/fit_output.h"
 #include "fitter/fitted_material.h"
 #include "fitter/import.h"
+#include "fitter/lobe_fit.h"
 #include "fitter/named_constants.h"
 
 namespace drude {
@@ -30,6 +32,7 @@ struct FitCommandOptions {
     double largest_thickness_nm = 10000;
     bool angle_offset = false, unweighted = false;
     std::string range;
+    std::string lobe_scan, constants;
     std::string name, output;
 };
 
@@ -112,23 +115,88 @@ std::string joined(const std::vector<std::string>& words) {
     return line;
 }
 
-int run_fit(const FitCommandOptions& options, const CommonOptions& common) {
-    const std::string text = read_file(options.measurement);
-    const Measurement measurement = parse_measurement_as(text, options.measurement, options.format);
-    const FitResult fit = fit_measurement(measurement, make_fit_options(options, common));
+Provenance provenance_of(const std::string& file, const std::string& text,
+                         const CommonOptions& common) {
     Provenance provenance;
-    provenance.measurement = options.measurement;
-    provenance.measurement_sha256 = file_sha256(options.measurement, text);
+    provenance.measurement = file;
+    provenance.measurement_sha256 = file_sha256(file, text);
     provenance.command = joined(common.command_line);
     provenance.version = DRUDE_VERSION;
-    const Material material = fitted_material(fit, measurement, options.name, provenance);
-    for (const std::string& warning : fit.warnings) fmt::print(stderr, "warning: {}\n", warning);
-    if (!options.output.empty()) write_material(options.output, material);
-    if (common.json) {
-        print_fit_json(fit, measurement, material, options.output);
-    } else {
-        print_fit_text(fit, material, options.output, options.unweighted);
+    return provenance;
+}
+
+void check_combination(const FitCommandOptions& options, const OptionSet& given) {
+    if (options.measurement.empty() == options.constants.empty()) {
+        user_error("{}",
+                   options.measurement.empty()
+                       ? "expected a measurement of Psi and Delta, or --lobe-scan with --constants"
+                       : "found a measurement and --constants, expected one of them: n and k come "
+                         "from either");
     }
+    if (!options.constants.empty() && options.lobe_scan.empty()) {
+        user_error("found --constants without --lobe-scan: there is nothing to fit");
+    }
+    if (options.model == "film") return;
+    for (const char* option : {"--film-material", "--porosity", "--max-thickness"}) {
+        if (given.given(option)) user_error("found {}, which belongs to --model film", option);
+    }
+}
+
+void warn(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
+// n and k are known; the lobe is what is asked for.
+int run_lobe_fit(const FitCommandOptions& options, const CommonOptions& common) {
+    const std::string text = read_file(options.lobe_scan);
+    // "1.04,2.59" as well, where other options take it.
+    const bool numbers = options.constants.find(',') != std::string::npos;
+    Material material = numbers
+                            ? material_from_set(find_constants(options.constants, "--constants"))
+                            : find_material(options.constants);
+    const LobeFitResult lobes = fit_lobes(parse_lobe_scan(text, options.lobe_scan), material);
+    if (!options.name.empty()) material.name = options.name;
+    material.provenance = provenance_of(options.lobe_scan, text, common);
+    warn(lobes.warnings);
+    if (common.json) {
+        print_lobe_json(lobes, material, options.output);
+    } else {
+        print_lobe_text(lobes);
+    }
+    if (options.output.empty()) return 0;
+    set_fitted_lobe(lobes, options.lobe, &material);
+    write_material(options.output, material);
+    if (!common.json) fmt::print("written to {}\n", options.output);
+    return 0;
+}
+
+int run_fit(const FitCommandOptions& options, const OptionSet& given, const CommonOptions& common) {
+    check_combination(options, given);
+    if (options.measurement.empty()) return run_lobe_fit(options, common);
+    const std::string text = read_file(options.measurement);
+    const Measurement measurement = parse_measurement_as(text, options.measurement, options.format);
+    FitOptions fit_options = make_fit_options(options, common);
+    // With a lobe scan the question has an answer.
+    if (!options.lobe_scan.empty()) fit_options.lobe.clear();
+    const FitResult fit = fit_measurement(measurement, fit_options);
+    Material material = fitted_material(fit, measurement, options.name,
+                                        provenance_of(options.measurement, text, common));
+    warn(fit.warnings);
+    std::optional<LobeFitResult> lobes;
+    if (!options.lobe_scan.empty()) {
+        lobes = fit_lobes(read_lobe_scan(options.lobe_scan), material);
+        warn(lobes->warnings);
+    }
+    if (common.json) {
+        print_fit_json(fit, measurement, material, options.output, lobes ? &*lobes : nullptr);
+    } else {
+        print_fit_text(fit, material, options.output.empty(), options.unweighted);
+        if (lobes) print_lobe_text(*lobes);
+    }
+    if (options.output.empty()) return 0;
+    if (lobes) set_fitted_lobe(*lobes, options.lobe, &material);
+    write_material(options.output, material);
+    if (!common.json) fmt::print("written to {}\n", options.output);
     return 0;
 }
 
@@ -156,7 +224,13 @@ Command fit_command() {
         "incidence as one more parameter and needs three angles.\n\n"
         "Wavelengths at which the data determine nothing are left "
         "out and named; a measurement that determines nothing at all is refused (exit status 1). "
-        "The roughness of a lobe cannot be had from Psi and Delta and is refused with the reason.";
+        "\n\n"
+        "The roughness of a lobe cannot be had from Psi and Delta and is refused with the reason. "
+        "--lobe-scan takes reflectance against the detector's offset and fits beta of all four "
+        "lobes, with V-groove masking, averaged over the detector's cone, with a free scale for "
+        "every wavelength; n and k are those of the measurement, or of --constants. Lobes within 6 "
+        "of the best chi-square are a tie and are reported together; a lobe narrower than the cone "
+        "gives an upper bound. A material is written for one lobe: --lobe names it where some tie.";
     command.example =
         "$ drude fit cu.csv -o cu.json\n"
         "Cu-McPeak: bulk model, estimator psi-delta: pseudo n and k of a bare surface at 81 of 81 "
@@ -165,7 +239,7 @@ Command fit_command() {
         "written to cu.json\n";
     command.declare = [](OptionSet& options, const CommonOptions& common) {
         const auto values = std::make_shared<FitCommandOptions>();
-        options.positional("MEASUREMENT", values->measurement, "CSV or a vendor's export", true);
+        options.positional("MEASUREMENT", values->measurement, "CSV or a vendor's export", false);
         options.choice("--estimator", values->estimator, estimator_names(), "what is minimised");
         options.choice("--model", values->model, fit_model_names(), "the sample's structure");
         options.option("--overlayer", values->overlayers,
@@ -180,12 +254,16 @@ Command fit_command() {
         options.option("--range", values->range, "A:B: only wavelengths from A to B nm");
         options.flag("--unweighted", values->unweighted,
                      "every row counts alike; sigmas from the residuals");
-        options.option("--lobe", values->lobe, "ask for the roughness of a lobe");
+        options.option("--lobe-scan", values->lobe_scan,
+                       "a lobe scan (CSV): fit the roughness beta of every lobe");
+        options.option("--constants", values->constants,
+                       "MATERIAL of a lobe scan, where no measurement gives n and k");
+        options.option("--lobe", values->lobe, "of a lobe scan: the one to write where some tie");
         options.choice("--format", values->format, measurement_formats(),
                        "of the measurement; auto goes by content");
         options.option("--name", values->name, "of the material");
         options.option("-o,--output", values->output, "the material file (JSON)");
-        return [values, &common] { return run_fit(*values, common); };
+        return [values, &options, &common] { return run_fit(*values, options, common); };
     };
     return command;
 }

@@ -87,10 +87,35 @@ std::string what_was_fitted(const FitResult& fit) {
     return "n and k below " + layers;
 }
 
+void add_lobes(const LobeFitResult& result, ordered_json* document) {
+    ordered_json list = ordered_json::array();
+    for (const FittedLobe& lobe : result.lobes) {
+        // What is at most an upper bound has no value.
+        ordered_json one = {{"lobe", lobe_name(lobe.lobe)}, {"masking", "v-groove"}};
+        if (lobe.narrower_than_aperture) {
+            one["beta"] = nullptr;
+            one["sigma_beta"] = nullptr;
+            one["upper_bound"] = lobe.upper_bound;
+        } else {
+            one["beta"] = lobe.beta;
+            one["sigma_beta"] = lobe.sigma_beta;
+            one["upper_bound"] = nullptr;
+        }
+        one["chi2"] = lobe.chi2;
+        one["tied"] = lobe.tied;
+        one["at_bound"] = lobe.at_bound;
+        list.push_back(std::move(one));
+    }
+    (*document)["lobes"] = std::move(list);
+    (*document)["lobe_data"] = result.data;
+    (*document)["lobe_dof"] = result.dof();
+    (*document)["lobe_warnings"] = result.warnings;
+}
+
 }  // namespace
 
 void print_fit_json(const FitResult& fit, const Measurement& measurement, const Material& material,
-                    const std::string& output) {
+                    const std::string& output, const LobeFitResult* lobes) {
     ordered_json document = {{"model", fit.model},
                              {"estimator", fit.estimator},
                              {"name", material.name},
@@ -121,13 +146,14 @@ void print_fit_json(const FitResult& fit, const Measurement& measurement, const 
         document["rival"] = {{"thickness_nm", fit.rival_thickness_nm},
                              {"chi2_excess", fit.rival_chi2_excess}};
     }
+    if (lobes) add_lobes(*lobes, &document);
     document["output"] = output.empty() ? ordered_json(nullptr) : ordered_json(output);
     print_json_document(document);
 }
 
-void print_fit_text(const FitResult& fit, const Material& material, const std::string& output,
+void print_fit_text(const FitResult& fit, const Material& material, bool with_table,
                     bool unweighted) {
-    if (output.empty()) print_table(fit);
+    if (with_table) print_table(fit);
     const bool film = !fit.substrate.wavelength_nm.empty();
     const auto determined = std::count_if(fit.points.begin(), fit.points.end(),
                                           [](const FittedPoint& p) { return p.identifiable; });
@@ -154,7 +180,34 @@ void print_fit_text(const FitResult& fit, const Material& material, const std::s
         fmt::print("reduced chi-square {:.4f} with {} degrees of freedom (1 +- {:.2g} expected)\n",
                    fit.chi2_reduced(), fit.dof(), std::sqrt(2.0 / fit.dof()));
     }
-    if (!output.empty()) fmt::print("written to {}\n", output);
+}
+
+void print_lobe_json(const LobeFitResult& lobes, const Material& material,
+                     const std::string& output) {
+    ordered_json document = {{"model", "lobe"},
+                             {"name", material.name},
+                             {"measurement", material.provenance.measurement},
+                             {"measurement_sha256", material.provenance.measurement_sha256}};
+    add_lobes(lobes, &document);
+    document["output"] = output.empty() ? ordered_json(nullptr) : ordered_json(output);
+    print_json_document(document);
+}
+
+void print_lobe_text(const LobeFitResult& lobes) {
+    fmt::print("{:<18}{:>10}  {:>9}  {:>12}\n", "lobe", "beta", "+-", "chi-square");
+    for (const FittedLobe& lobe : lobes.lobes) {
+        if (lobe.narrower_than_aperture) {
+            fmt::print("{:<18}{:>10}  {:>9}  {:>12.2f}{}\n", lobe_name(lobe.lobe),
+                       fmt::format("< {:.5f}", lobe.upper_bound), "", lobe.chi2,
+                       lobe.tied ? "  tied" : "");
+        } else {
+            fmt::print("{:<18}{:>10.5f}  {:>9.5f}  {:>12.2f}{}\n", lobe_name(lobe.lobe), lobe.beta,
+                       lobe.sigma_beta, lobe.chi2, lobe.tied ? "  tied" : "");
+        }
+    }
+    fmt::print(
+        "{} data, {} degrees of freedom; lobes within {:g} of the best chi-square are tied\n",
+        lobes.data, lobes.dof(), lobe_tie);
 }
 
 }  // namespace drude
