@@ -8,6 +8,7 @@
 #include "base/executor.h"
 #include "fitter/film_fit.h"
 #include "fitter/fit_data.h"
+#include "fitter/model_ladder.h"
 #include "fitter/offset_fit.h"
 #include "fitter/point_fit.h"
 
@@ -27,6 +28,19 @@ Estimator parse_estimator(const std::string& name) {
 
 // That the model has what it needs and nothing else was asked for.
 void check_structure(const FitOptions& options) {
+    if (options.model == "auto") {
+        if (options.estimator == "inversion") {
+            user_error(
+                "the model auto compares chi-squares that were minimised, found the estimator "
+                "inversion; expected psi-delta or rho2");
+        }
+        if (options.fit_angle_offset) {
+            user_error(
+                "the model auto tries an angle offset by itself: leave --angle-offset out, or "
+                "name a model");
+        }
+        return;
+    }
     const bool film = options.model == "film", overlayer = options.model == "overlayer";
     if (overlayer == options.overlayers.empty()) {
         user_error("{}", overlayer
@@ -184,7 +198,7 @@ const std::vector<std::string>& estimator_names() {
 }
 
 const std::vector<std::string>& fit_model_names() {
-    static const std::vector<std::string> names = {"bulk", "overlayer", "film"};
+    static const std::vector<std::string> names = {"bulk", "overlayer", "film", "auto"};
     return names;
 }
 
@@ -193,6 +207,7 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
     check_options(options);
     measurement.check();
     check_offset(measurement, options);
+    if (options.model == "auto") return fit_ladder(measurement, options);
     if (options.model == "film") return fit_film(measurement, options);
     FitResult result;
     result.estimator = options.estimator;

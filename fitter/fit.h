@@ -30,7 +30,8 @@ struct FitOptions {
     // Magnor 2012 did. inversion: closed form for every angle of incidence, averaged.
     std::string estimator = "psi-delta";
     // bulk: a bare surface, n and k point by point. overlayer: the same below `overlayers`.
-    // film: thickness and porosity of `film`.
+    // film: thickness and porosity of `film`. auto: the smallest of them that the data need
+    // (model_ladder.h).
     std::string model = "bulk";
     std::vector<FilmLayer> overlayers;  // the first is the outermost
     FilmModel film;

@@ -36,6 +36,15 @@ struct FittedParameter {
     bool identifiable = false;
 };
 
+// A model that was tried on the way to the smallest one that the data need.
+struct LadderRung {
+    std::string model;
+    int data = 0, parameters = 0;  // 0 where the model could not be fitted
+    double chi2_reduced = 0, bic = 0;
+    bool taken = false;     // better than what was taken before it
+    std::string objection;  // why not
+};
+
 struct FitResult {
     std::string estimator;  // "psi-delta", "rho2", "inversion"
     std::string model;      // "bulk", "overlayer", "film"
@@ -51,9 +60,10 @@ struct FitResult {
     // The next best thickness of a film that is a minimum by itself, and how much worse its
     // chi-square is; 0 and 0 where the search met none.
     double rival_thickness_nm = 0, rival_chi2_excess = 0;
-    double chi2 = 0;     // summed over the identifiable points
-    int data = 0;        // residuals in that sum
-    int parameters = 0;  // fitted to them
+    double chi2 = 0;                 // summed over the identifiable points
+    int data = 0;                    // residuals in that sum
+    int parameters = 0;              // fitted to them
+    std::vector<LadderRung> ladder;  // of the model "auto", in the order tried; otherwise empty
     std::vector<std::string> warnings;
 
     int dof() const { return data - parameters; }

@@ -136,7 +136,7 @@ void check_combination(const FitCommandOptions& options, const OptionSet& given)
     if (!options.constants.empty() && options.lobe_scan.empty()) {
         user_error("found --constants without --lobe-scan: there is nothing to fit");
     }
-    if (options.model == "film") return;
+    if (options.model == "film" || options.model == "auto") return;
     for (const char* option : {"--film-material", "--porosity", "--max-thickness"}) {
         if (given.given(option)) user_error("found {}, which belongs to --model film", option);
     }
@@ -219,6 +219,10 @@ Command fit_command() {
         "fits the thickness of a film and its porosity, as a Bruggeman mixture of --film-material "
         "with void, on the known --substrate, all wavelengths together; the fringes of cos 2Psi "
         "give its starts, and the next best thickness is reported.\n\n"
+        "The model auto climbs a ladder: bulk, overlayer where one is given, film where a "
+        "substrate is, an angle offset from three angles on. A rung is taken only where the "
+        "Bayesian information criterion falls by more than 10 and the reduced chi-square moves "
+        "towards 1; the ladder is printed.\n\n"
         "A material is a set (drude materials), a material file, n,k, or a Cauchy formula "
         "cauchy:A,B,C in micrometres. --angle-offset takes a common error of the angles of "
         "incidence as one more parameter and needs three angles.\n\n"

@@ -87,6 +87,35 @@ std::string what_was_fitted(const FitResult& fit) {
     return "n and k below " + layers;
 }
 
+ordered_json ladder(const FitResult& fit) {
+    ordered_json list = ordered_json::array();
+    for (const LadderRung& rung : fit.ladder) {
+        ordered_json one = {{"model", rung.model}, {"taken", rung.taken}};
+        if (rung.data > 0) {
+            one["data"] = rung.data;
+            one["parameters"] = rung.parameters;
+            one["chi2_reduced"] = rung.chi2_reduced;
+            one["bic"] = rung.bic;
+        }
+        if (!rung.taken) one["objection"] = rung.objection;
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
+void print_ladder(const FitResult& fit) {
+    fmt::print("{:<26}{:>10}{:>12}{:>14}\n", "model", "parameters", "chi2/dof", "BIC");
+    for (const LadderRung& rung : fit.ladder) {
+        const std::string verdict = rung.taken ? "taken" : "not taken: " + rung.objection;
+        if (rung.data > 0) {
+            fmt::print("{:<26}{:>10}{:>12.4g}{:>14.6g}  {}\n", rung.model, rung.parameters,
+                       rung.chi2_reduced, rung.bic, verdict);
+        } else {
+            fmt::print("{:<26}{:>36}  {}\n", rung.model, "", verdict);
+        }
+    }
+}
+
 void add_lobes(const LobeFitResult& result, ordered_json* document) {
     ordered_json list = ordered_json::array();
     for (const FittedLobe& lobe : result.lobes) {
@@ -141,6 +170,7 @@ void print_fit_json(const FitResult& fit, const Measurement& measurement, const 
                              {"pseudo", fit.layers.empty()},
                              {"layers", layers(fit)},
                              {"warnings", fit.warnings}};
+    if (!fit.ladder.empty()) document["ladder"] = ladder(fit);
     if (!fit.substrate.wavelength_nm.empty()) document["substrate"] = fit.substrate.name;
     if (fit.rival_thickness_nm > 0) {
         document["rival"] = {{"thickness_nm", fit.rival_thickness_nm},
@@ -154,6 +184,7 @@ void print_fit_json(const FitResult& fit, const Measurement& measurement, const 
 void print_fit_text(const FitResult& fit, const Material& material, bool with_table,
                     bool unweighted) {
     if (with_table) print_table(fit);
+    if (!fit.ladder.empty()) print_ladder(fit);
     const bool film = !fit.substrate.wavelength_nm.empty();
     const auto determined = std::count_if(fit.points.begin(), fit.points.end(),
                                           [](const FittedPoint& p) { return p.identifiable; });
