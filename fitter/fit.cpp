@@ -6,7 +6,10 @@
 
 #include "base/error.h"
 #include "base/executor.h"
-#include "fitter/point_data.h"
+#include "fitter/film_fit.h"
+#include "fitter/fit_data.h"
+#include "fitter/model_ladder.h"
+#include "fitter/offset_fit.h"
 #include "fitter/point_fit.h"
 
 namespace drude {
@@ -23,6 +26,77 @@ Estimator parse_estimator(const std::string& name) {
     return static_cast<Estimator>(found - names.begin());
 }
 
+// That the model has what it needs and nothing else was asked for.
+void check_structure(const FitOptions& options) {
+    if (options.model == "auto") {
+        if (options.estimator == "inversion") {
+            user_error(
+                "the model auto compares chi-squares that were minimised, found the estimator "
+                "inversion; expected psi-delta or rho2");
+        }
+        if (options.fit_angle_offset) {
+            user_error(
+                "the model auto tries an angle offset by itself: leave --angle-offset out, or "
+                "name a model");
+        }
+        return;
+    }
+    const bool film = options.model == "film", overlayer = options.model == "overlayer";
+    if (overlayer == options.overlayers.empty()) {
+        user_error("{}", overlayer
+                             ? "the model overlayer takes a layer of known material and thickness, "
+                               "found none (--overlayer Al2O3-Malitson-o,3)"
+                             : "a layer of known thickness is given: it belongs to the model "
+                               "'overlayer'");
+    }
+    for (const FilmLayer& layer : options.overlayers) {
+        layer.constants.check();
+        if (!(layer.thickness_nm >= 0 && std::isfinite(layer.thickness_nm))) {
+            user_error("found an overlayer of {} nm, expected a finite number of at least 0",
+                       layer.thickness_nm);
+        }
+    }
+    if (!options.film.substrate.wavelength_nm.empty() && !film) {
+        user_error("a known substrate is given: it belongs to the model 'film'");
+    }
+    if ((film || overlayer) && options.estimator == "inversion") {
+        user_error(
+            "the estimator inversion solves a bare surface only, found the model '{}'; "
+            "expected psi-delta or rho2",
+            options.model);
+    }
+    if (!film) return;
+    if (options.film.substrate.wavelength_nm.empty()) {
+        user_error("the model film takes a known substrate, found none (--substrate Al-Rakic)");
+    }
+    options.film.substrate.check();
+    options.film.material.check();
+    const auto& porosity = options.film.porosity;
+    if (porosity && !(*porosity >= 0 && *porosity <= 0.95)) {
+        user_error("found a porosity of {}, expected a volume fraction from 0 to 0.95", *porosity);
+    }
+    const double largest = options.film.largest_thickness_nm;
+    if (!(largest >= 1 && largest <= 1e5)) {
+        user_error("found {} nm as the largest thickness to try, expected 1 to 100000", largest);
+    }
+}
+
+void check_offset(const Measurement& measurement, const FitOptions& options) {
+    if (!options.fit_angle_offset) return;
+    if (options.estimator == "inversion") {
+        user_error(
+            "the estimator inversion takes the angles as they are stated; expected psi-delta "
+            "or rho2 with an angle offset");
+    }
+    const size_t angles = measurement.angles().size();
+    if (angles < 3) {
+        throw Error(Cause::answer_is_no,
+                    fmt::format("a common offset of the angles of incidence takes three angles or "
+                                "more, found {}: with fewer, n and k take it up",
+                                angles));
+    }
+}
+
 void check_options(const FitOptions& options) {
     const auto& models = fit_model_names();
     if (std::find(models.begin(), models.end(), options.model) == models.end()) {
@@ -34,6 +108,11 @@ void check_options(const FitOptions& options) {
             user_error("found a standard deviation of {} degrees, expected one above 0", sigma);
         }
     }
+    if (!(options.first_nm < options.last_nm)) {
+        user_error("found the wavelengths {} to {} nm, expected the first below the last",
+                   options.first_nm, options.last_nm);
+    }
+    check_structure(options);
     if (!options.lobe.empty()) {
         throw Error(Cause::answer_is_no,
                     "Psi and Delta hold nothing about the lobe '" + options.lobe +
@@ -41,67 +120,6 @@ void check_options(const FitOptions& options) {
                         "multiply r_p and r_s alike and cancel in r_p/r_s = tan(Psi) exp(i Delta), "
                         "so the Jacobian's column of beta is zero. beta takes a lobe scan: "
                         "reflectance against the detector's offset from the mirror direction.");
-    }
-}
-
-std::vector<WavelengthData> group_by_wavelength(const Measurement& measurement,
-                                                const FitOptions& options) {
-    std::vector<MeasurementRow> rows = measurement.rows;
-    // Sorted by angle too, so that the order of the rows in a file does not move the last digit.
-    std::sort(rows.begin(), rows.end(), [](const MeasurementRow& a, const MeasurementRow& b) {
-        if (a.wavelength_nm != b.wavelength_nm) return a.wavelength_nm < b.wavelength_nm;
-        return a.angle_deg < b.angle_deg;
-    });
-    std::vector<WavelengthData> groups;
-    for (const MeasurementRow& row : rows) {
-        if (groups.empty() || groups.back().wavelength_nm != row.wavelength_nm) {
-            groups.push_back({row.wavelength_nm, {}});
-        }
-        const double sigma_psi =
-            row.sigma_psi_deg > 0 ? row.sigma_psi_deg : options.default_sigma_psi_deg;
-        const double sigma_delta =
-            row.sigma_delta_deg > 0 ? row.sigma_delta_deg : options.default_sigma_delta_deg;
-        groups.back().points.push_back(
-            make_angle_point(row.angle_deg, row.psi_deg, row.delta_deg, sigma_psi, sigma_delta));
-    }
-    return groups;
-}
-
-void warn_about_data(const Measurement& measurement, const FitOptions& options,
-                     std::vector<std::string>* warnings) {
-    const auto count = [&](auto&& holds) {
-        return std::count_if(measurement.rows.begin(), measurement.rows.end(), holds);
-    };
-    const size_t rows = measurement.rows.size();
-    const auto without_sigma = count([](const MeasurementRow& row) {
-        return !(row.sigma_psi_deg > 0 && row.sigma_delta_deg > 0);
-    });
-    if (without_sigma > 0) {
-        warnings->push_back(fmt::format(
-            "{} of {} rows bring no standard deviations: {} degrees in Psi and {} in Delta assumed "
-            "there; those of n and k and the reduced chi-square follow from that assumption",
-            without_sigma, rows, options.default_sigma_psi_deg, options.default_sigma_delta_deg));
-    }
-    const auto depolarised =
-        count([](const MeasurementRow& row) { return row.depolarization > 0.01; });
-    if (depolarised > 0) {
-        warnings->push_back(fmt::format(
-            "{} of {} rows are depolarised by more than 1 %, which no smooth surface does: n and k "
-            "are not those of the metal alone",
-            depolarised, rows));
-    }
-    if (options.estimator == "rho2") return;
-    // Noise takes Delta of a transparent material across 0 and 180; a degree leaves that out.
-    const auto opposite = count([](const MeasurementRow& row) {
-        const double delta = std::remainder(row.delta_deg, 360.0);
-        return delta < -1 && delta > -179;
-    });
-    if (2 * static_cast<size_t>(opposite) > rows) {
-        warnings->push_back(fmt::format(
-            "Delta lies between 180 and 360 degrees in {} of {} rows, where no bare surface has it "
-            "in this project's sign: a film, or an instrument of the opposite sign (then write "
-            "360 - Delta)",
-            opposite, rows));
     }
 }
 
@@ -114,7 +132,17 @@ std::string wavelength_list(const std::vector<double>& wavelengths) {
     return list + " nm";
 }
 
-void warn_about_result(FitResult* result) {
+// Weights that say nothing of the noise: the residuals themselves say how large it is.
+void scale_sigmas(FitResult* result) {
+    const double scale = std::sqrt(result->chi2_reduced());
+    for (FittedPoint& point : result->points) {
+        point.sigma_n *= scale;
+        point.sigma_k *= scale;
+    }
+    for (FittedParameter& parameter : result->common) parameter.sigma *= scale;
+}
+
+void warn_about_result(FitResult* result, bool unweighted) {
     std::map<std::string, std::vector<double>> refused;
     std::vector<double> bounded, vague;
     for (const FittedPoint& point : result->points) {
@@ -150,6 +178,7 @@ void warn_about_result(FitResult* result) {
             "chi-square");
         return;
     }
+    if (unweighted) return;
     const double reduced = result->chi2_reduced();
     const double scatter = 3 * std::sqrt(2.0 / result->dof());
     if (reduced > 1 + scatter) {
@@ -169,7 +198,7 @@ const std::vector<std::string>& estimator_names() {
 }
 
 const std::vector<std::string>& fit_model_names() {
-    static const std::vector<std::string> names = {"bulk"};
+    static const std::vector<std::string> names = {"bulk", "overlayer", "film", "auto"};
     return names;
 }
 
@@ -177,15 +206,32 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
     const Estimator estimator = parse_estimator(options.estimator);
     check_options(options);
     measurement.check();
+    check_offset(measurement, options);
+    if (options.model == "auto") return fit_ladder(measurement, options);
+    if (options.model == "film") return fit_film(measurement, options);
     FitResult result;
     result.estimator = options.estimator;
     result.model = options.model;
-    warn_about_data(measurement, options, &result.warnings);
+    result.layers = options.overlayers;
+    result.warnings = data_warnings(measurement, options);
 
     const std::vector<WavelengthData> groups = group_by_wavelength(measurement, options);
     result.points.resize(groups.size());
-    parallel_for(groups.size(), options.threads,
-                 [&](size_t i) { result.points[i] = fit_point(groups[i], estimator); });
+    for (const FilmLayer& layer : options.overlayers) {
+        const std::string warning = layer.constants.range_warning(groups.front().wavelength_nm,
+                                                                  groups.back().wavelength_nm);
+        if (!warning.empty()) result.warnings.push_back(warning);
+    }
+    if (options.fit_angle_offset) {
+        OffsetFit fit = fit_with_offset(groups, estimator, options.threads);
+        result.points = std::move(fit.points);
+        result.common = {fit.offset};
+        result.common_correlation = {1};
+        result.parameters = 1;
+    } else {
+        parallel_for(groups.size(), options.threads,
+                     [&](size_t i) { result.points[i] = fit_point(groups[i], estimator); });
+    }
 
     for (const FittedPoint& point : result.points) {
         if (!point.identifiable) continue;
@@ -193,14 +239,15 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
         result.data += point.data;
         result.parameters += 2;
     }
-    if (result.parameters == 0) {
+    if (result.data == 0) {
         throw Error(Cause::answer_is_no,
                     fmt::format("{}: no fit: at none of the {} wavelengths do the data determine n "
                                 "and k ({})",
                                 measurement.file.empty() ? "measurement" : measurement.file,
                                 result.points.size(), result.points.front().reason));
     }
-    warn_about_result(&result);
+    if (options.unweighted && result.dof() > 0) scale_sigmas(&result);
+    warn_about_result(&result, options.unweighted);
     return result;
 }
 

@@ -5,34 +5,60 @@
 //     write_material("cu.json", fitted_material(fit, m, "Cu", provenance));
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fitter/fit_result.h"
+#include "materials/material.h"
 #include "materials/measurement.h"
 
 namespace drude {
+
+// What the model "film" knows beforehand: light meets a film of unknown thickness, a Bruggeman
+// mixture of `material` with empty pores, on a known substrate.
+struct FilmModel {
+    OpticalConstants substrate;
+    OpticalConstants material;
+    std::optional<double> porosity;  // volume fraction of the pores, in [0, 0.95]; empty: fitted
+    double largest_thickness_nm = 10000;  // the search ends here; in [1, 1e5]
+};
 
 struct FitOptions {
     // psi_delta: both angles (the default). rho2: tan^2 Psi alone, as Berger, Weidlich, Wilkie &
     // Magnor 2012 did. inversion: closed form for every angle of incidence, averaged.
     std::string estimator = "psi-delta";
-    std::string model = "bulk";  // a bare surface, n and k point by point
-    std::string lobe;            // refused: Psi and Delta hold nothing about roughness
-    int threads = 0;             // 0: all available; the result does not depend on it
+    // bulk: a bare surface, n and k point by point. overlayer: the same below `overlayers`.
+    // film: thickness and porosity of `film`. auto: the smallest of them that the data need
+    // (model_ladder.h).
+    std::string model = "bulk";
+    std::vector<FilmLayer> overlayers;  // the first is the outermost
+    FilmModel film;
+    // A common error of the angles of incidence as one more parameter; takes three angles or more.
+    bool fit_angle_offset = false;
+    std::string lobe;  // refused: Psi and Delta hold nothing about roughness
+    int threads = 0;   // 0: all available; the result does not depend on it
     // Standard deviations in degrees, for rows that bring none.
     double default_sigma_psi_deg = 0.05, default_sigma_delta_deg = 0.1;
+    // Every row and both angles count alike, whatever standard deviations the file states; those
+    // of the result then come from the scatter of the residuals.
+    bool unweighted = false;
+    // Rows outside are left out; 0 and infinity take all.
+    double first_nm = 0, last_nm = std::numeric_limits<double>::infinity();
 };
 
 const std::vector<std::string>& estimator_names();
 const std::vector<std::string>& fit_model_names();
 
-// Fits every wavelength by itself, from a closed-form start, with n >= 1e-6 and k >= 0.
+// Fits without start values. The models bulk and overlayer take every wavelength by itself, with
+// n >= 1e-6 and k >= 0; film takes all of them together, from a search of its own.
 //
-// Throws Error (user) for an unknown estimator or model and for what Measurement::check forbids;
-// Error (answer_is_no) where `lobe` is asked for, and where no wavelength holds enough information,
-// each with the reason. Wavelengths that hold too little among others that hold enough are marked
-// in the result and named in its warnings.
+// Throws Error (user) for an unknown estimator or model, for options that the model lacks, has no
+// use for or that are out of range, and for what Measurement::check forbids; Error (answer_is_no)
+// where `lobe` is asked for, and where the data do not hold what is asked, each with the reason.
+// Wavelengths that hold too little among others that hold enough are marked in the result and named
+// in its warnings.
 FitResult fit_measurement(const Measurement& measurement, const FitOptions& options);
 
 }  // namespace drude

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "materials/material.h"
+
 namespace drude {
 
 // n and k at one wavelength. Where `identifiable` is false the data do not determine them: both
@@ -25,13 +27,43 @@ struct FittedPoint {
     std::string reason;
 };
 
+// A parameter that all wavelengths share.
+struct FittedParameter {
+    std::string name, unit;  // "thickness", "nm"; the unit of a pure number is ""
+    double value = 0;
+    double sigma = 0;       // NaN where not identifiable
+    bool at_bound = false;  // of the range in which it is sought
+    bool identifiable = false;
+};
+
+// A model that was tried on the way to the smallest one that the data need.
+struct LadderRung {
+    std::string model;
+    int data = 0, parameters = 0;  // 0 where the model could not be fitted
+    double chi2_reduced = 0, bic = 0;
+    bool taken = false;     // better than what was taken before it
+    std::string objection;  // why not
+};
+
 struct FitResult {
-    std::string estimator;            // "psi-delta", "rho2", "inversion"
-    std::string model;                // "bulk"
-    std::vector<FittedPoint> points;  // ascending in wavelength
-    double chi2 = 0;                  // summed over the identifiable points
-    int data = 0;                     // residuals in that sum
-    int parameters = 0;               // fitted to them
+    std::string estimator;  // "psi-delta", "rho2", "inversion"
+    std::string model;      // "bulk", "overlayer", "film"
+    // Ascending in wavelength: of the surface ("bulk"), of what lies below the layers
+    // ("overlayer"), of the film itself ("film").
+    std::vector<FittedPoint> points;
+    std::vector<FittedParameter> common;
+    std::vector<double> common_correlation;  // row-major, as `common`
+    double condition = 0;                    // of the Jacobian of `common`; 0 where there is none
+    // What lies on the surface, the first the outermost: the user's layers, or the fitted film.
+    std::vector<FilmLayer> layers;
+    OpticalConstants substrate;  // below a fitted film; otherwise without rows: `points` are it
+    // The next best thickness of a film that is a minimum by itself, and how much worse its
+    // chi-square is; 0 and 0 where the search met none.
+    double rival_thickness_nm = 0, rival_chi2_excess = 0;
+    double chi2 = 0;                 // summed over the identifiable points
+    int data = 0;                    // residuals in that sum
+    int parameters = 0;              // fitted to them
+    std::vector<LadderRung> ladder;  // of the model "auto", in the order tried; otherwise empty
     std::vector<std::string> warnings;
 
     int dof() const { return data - parameters; }

@@ -6,6 +6,28 @@
 
 namespace drude {
 
+namespace {
+
+std::string layer_text(const std::vector<FilmLayer>& layers) {
+    std::string text;
+    for (const FilmLayer& layer : layers) {
+        text += fmt::format("{}{} nm of {}", text.empty() ? "" : " on ", layer.thickness_nm,
+                            layer.constants.name);
+    }
+    return text;
+}
+
+Material finished(Material material, const FitResult& fit, Provenance provenance) {
+    material.provenance = std::move(provenance);
+    for (const std::string& warning : fit.warnings) {
+        material.provenance.warnings.push_back(warning);
+    }
+    material.check();
+    return material;
+}
+
+}  // namespace
+
 Material fitted_material(const FitResult& fit, const Measurement& measurement,
                          const std::string& name, Provenance provenance) {
     Material material;
@@ -15,14 +37,23 @@ Material fitted_material(const FitResult& fit, const Measurement& measurement,
         material.name = std::filesystem::path(measurement.file).stem().string();
     }
     if (material.name.empty()) material.name = "fitted";
+    if (!fit.substrate.wavelength_nm.empty()) {
+        material.substrate = fit.substrate;
+        material.layers = fit.layers;
+        return finished(std::move(material), fit, std::move(provenance));
+    }
     OpticalConstants& constants = material.substrate;
     constants.name = material.name;
     constants.material = material.name;
     constants.kind = "fitted";
-    constants.citation = fmt::format(
-        "pseudo n, k: fitted to Psi and Delta as those of a bare surface (estimator {}); an oxide "
-        "or roughness is contained in them",
-        fit.estimator);
+    constants.citation =
+        fit.layers.empty() ? fmt::format(
+                                 "pseudo n, k: fitted to Psi and Delta as those of a bare surface "
+                                 "(estimator {}); an oxide or roughness is contained in them",
+                                 fit.estimator)
+                           : fmt::format("fitted to Psi and Delta below {} (estimator {})",
+                                         layer_text(fit.layers), fit.estimator);
+    material.layers = fit.layers;
     for (const FittedPoint& point : fit.points) {
         if (!point.identifiable) continue;
         constants.wavelength_nm.push_back(point.wavelength_nm);
@@ -34,12 +65,7 @@ Material fitted_material(const FitResult& fit, const Measurement& measurement,
     if (constants.wavelength_nm.empty()) {
         throw Error(Cause::answer_is_no, "no wavelength of the fit is identifiable: no material");
     }
-    material.provenance = std::move(provenance);
-    for (const std::string& warning : fit.warnings) {
-        material.provenance.warnings.push_back(warning);
-    }
-    material.check();
-    return material;
+    return finished(std::move(material), fit, std::move(provenance));
 }
 
 }  // namespace drude

@@ -9,8 +9,9 @@
 
 namespace drude {
 
-// The identifiable points as optical constants of kind "fitted" with their standard deviations, as
-// a smooth surface (beta = 0). `name`: of the record; where it is empty, the measurement's header
+// The identifiable points as optical constants of kind "fitted" with their standard deviations,
+// under the fit's layers; for a fitted film the known substrate under that film. A smooth surface
+// (beta = 0). `name`: of the record; where it is empty, the measurement's header
 // "sample", else its file name without extension. `provenance` is kept, with the fit's warnings
 // added. Throws Error (answer_is_no) where no point is identifiable.
 Material fitted_material(const FitResult& fit, const Measurement& measurement,

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "materials/film_stack.h"
+
 namespace drude {
 
 // Psi and Delta as the point (N, C, S) = (cos 2Psi, sin 2Psi cos Delta, sin 2Psi sin Delta) of the
@@ -20,6 +22,8 @@ struct AnglePoint {
 struct WavelengthData {
     double wavelength_nm = 0;
     std::vector<AnglePoint> points;
+    // Known layers on what is fitted, thickness in nm; the first is the outermost.
+    std::vector<ThinFilm<double>> layers;
 };
 
 // Angles and standard deviations in degrees; both sigmas > 0.

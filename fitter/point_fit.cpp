@@ -10,38 +10,11 @@
 #include "base/error.h"
 #include "fitter/identifiability.h"
 #include "fitter/inversion.h"
-#include "fitter/residuals.h"
+#include "fitter/point_residuals.h"
 
 namespace drude {
 
 namespace {
-
-// All residuals of a wavelength as a function of (n, k).
-struct PointResiduals {
-    const WavelengthData* data;
-    Estimator estimator;
-
-    int count() const {
-        const int points = static_cast<int>(data->points.size());
-        return estimator == Estimator::rho2 ? points : 2 * points;
-    }
-
-    template <class T>
-    bool operator()(const T* index, T* residuals) const {
-        const ComplexIndex<T> nk{index[0], index[1]};
-        for (const AnglePoint& point : data->points) {
-            const Reflection<T> model = reflect(nk, T(point.cos_theta));
-            if (estimator == Estimator::rho2) {
-                if (!rho2_residual(point, model, residuals)) return false;
-                residuals += 1;
-            } else {
-                if (!psi_delta_residuals(point, model, residuals)) return false;
-                residuals += 2;
-            }
-        }
-        return true;
-    }
-};
 
 using PointCost = ceres::AutoDiffCostFunction<PointResiduals, ceres::DYNAMIC, 2>;
 
@@ -108,15 +81,47 @@ std::string too_few(const WavelengthData& data, Estimator estimator) {
     return fmt::format("{}: Psi and Delta do not determine n and k", where);
 }
 
+double chi2_at(const PointCost& cost, const double* index) {
+    std::vector<double> residuals(static_cast<size_t>(cost.num_residuals()));
+    const double* parameters[] = {index};
+    if (!cost.Evaluate(parameters, residuals.data(), nullptr)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    double sum = 0;
+    for (const double residual : residuals) sum += residual * residual;
+    return sum;
+}
+
+// The best minimum reached from `start`, and below layers from metals and dielectrics of every
+// sort too: interference makes minima that a bare surface does not have. "" where one converged.
+std::string minimise_from(const AveragedIndex& start, const WavelengthData& data, PointCost* cost,
+                          double* index) {
+    make_start(start, index);
+    std::string failure = minimise(cost, index);
+    if (data.layers.empty()) return failure;
+    double best = failure.empty() ? chi2_at(*cost, index) : std::numeric_limits<double>::infinity();
+    constexpr double others[][2] = {{0.2, 3},   {1, 6},   {0.6, 1.5},
+                                    {2.5, 3.5}, {4, 0.1}, {1.5, 0.01}};
+    for (const auto& other : others) {
+        double trial[2] = {other[0], other[1]};
+        if (!minimise(cost, trial).empty()) continue;
+        const double chi2 = chi2_at(*cost, trial);
+        if (!(chi2 < best)) continue;
+        best = chi2;
+        failure.clear();
+        std::copy(trial, trial + 2, index);
+    }
+    return failure;
+}
+
 void fit_least_squares(const WavelengthData& data, Estimator estimator, const AveragedIndex& start,
                        FittedPoint* point) {
     const auto cost = make_cost({&data, estimator});
     double index[2];
-    make_start(start, index);
-    const std::string failure = minimise(cost.get(), index);
+    const std::string failure = minimise_from(start, data, cost.get(), index);
     if (!failure.empty()) return refuse(point, failure);
     if (std::max(index[0], index[1]) > 0.999 * largest_index) {
-        return refuse(point, "no bare surface explains the data: n and k run off to infinity");
+        return refuse(point, "no surface explains the data: n and k run off to infinity");
     }
 
     const size_t count = static_cast<size_t>(point->data);
@@ -179,8 +184,9 @@ FittedPoint fit_point(const WavelengthData& data, Estimator estimator) {
     } else {
         fit_least_squares(data, estimator, inverted, &point);
     }
-    // Delta takes no part in rho2, and neither does what follows from it.
-    if (estimator != Estimator::rho2) {
+    // Delta takes no part in rho2, and neither does what follows from it. Below layers the closed
+    // form gives pseudo-values, whose spread is no fault of the model.
+    if (estimator != Estimator::rho2 && data.layers.empty()) {
         point.spread_n = inverted.spread_n;
         point.spread_k = inverted.spread_k;
     }

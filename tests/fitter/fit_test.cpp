@@ -196,7 +196,7 @@ TEST(Fit, UnknownWordsNameTheNearestAndAllThatExist) {
     EXPECT_EQ(error.cause(), Cause::user);
     EXPECT_NE(error.message().find("did you mean 'psi-delta'"), std::string::npos);
     options = {};
-    options.model = "film";
+    options.model = "blk";
     error = refusal(measured(metal_cases()[0], paper_angles(), 0), options);
     EXPECT_EQ(error.cause(), Cause::user);
     EXPECT_NE(error.message().find("bulk"), std::string::npos);

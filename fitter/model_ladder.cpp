@@ -1,0 +1,131 @@
+#include "fitter/model_ladder.h"
+
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+
+namespace drude {
+
+namespace {
+
+double distance_from_one(const FitResult& fit) {
+    return std::abs(fit.chi2_reduced() - 1);
+}
+
+// "" where `next` is the better model, otherwise what speaks against it.
+std::string objection(const FitResult& now, const FitResult& next, bool unweighted) {
+    if (next.data < now.data) {
+        return fmt::format("it explains {} data, fewer than {}", next.data, now.data);
+    }
+    if (!(next.dof() > 0)) return "it has as many parameters as data";
+    for (const FittedParameter& parameter : next.common) {
+        if (!parameter.identifiable) {
+            return fmt::format("the data do not determine its {}", parameter.name);
+        }
+        if (parameter.at_bound) {
+            return fmt::format("its {} ends at a bound, {:.4g}", parameter.name, parameter.value);
+        }
+    }
+    const double scatter = 3 * std::sqrt(2.0 / next.dof());
+    const bool fits = !unweighted && distance_from_one(next) <= scatter;
+    // More data, or a criterion that cannot be had: the fit itself decides.
+    if (next.data > now.data || !(now.dof() > 0)) {
+        return unweighted || fits
+                   ? ""
+                   : fmt::format("its reduced chi-square is {:.4g}", next.chi2_reduced());
+    }
+    const double gain = bayesian_criterion(now, unweighted) - bayesian_criterion(next, unweighted);
+    if (!(gain > ladder_bic_gain)) {
+        return fmt::format("BIC falls by {:.4g}, not by more than {:g}", gain, ladder_bic_gain);
+    }
+    if (!unweighted && !fits && !(distance_from_one(next) < distance_from_one(now))) {
+        return fmt::format("its reduced chi-square {:.4g} is further from 1 than {:.4g}",
+                           next.chi2_reduced(), now.chi2_reduced());
+    }
+    return "";
+}
+
+class Ladder {
+  public:
+    Ladder(const Measurement& measurement, const FitOptions& options)
+        : measurement_(measurement), unweighted_(options.unweighted) {}
+
+    void climb(const std::string& name, const FitOptions& options) {
+        LadderRung rung;
+        rung.model = name;
+        try {
+            FitResult next = fit_measurement(measurement_, options);
+            rung.data = next.data;
+            rung.parameters = next.parameters;
+            rung.chi2_reduced = next.chi2_reduced();
+            rung.bic = bayesian_criterion(next, unweighted_);
+            if (best_) rung.objection = objection(*best_, next, unweighted_);
+            rung.taken = rung.objection.empty();
+            if (rung.taken) {
+                best_ = std::move(next);
+                options_ = options;
+            }
+        } catch (const Error& error) {
+            // A wrong option or file is wrong for every rung.
+            if (error.cause() != Cause::answer_is_no) throw;
+            rung.objection = error.message();
+            if (!first_refusal_) first_refusal_ = error;
+        }
+        rungs_.push_back(std::move(rung));
+    }
+
+    const FitOptions& options_taken() const { return options_; }
+    bool any() const { return best_.has_value(); }
+
+    FitResult result() {
+        if (!best_) throw *first_refusal_;
+        best_->ladder = rungs_;
+        return std::move(*best_);
+    }
+
+  private:
+    const Measurement& measurement_;
+    bool unweighted_;
+    std::vector<LadderRung> rungs_;
+    std::optional<FitResult> best_;
+    FitOptions options_;
+    std::optional<Error> first_refusal_;
+};
+
+}  // namespace
+
+double bayesian_criterion(const FitResult& fit, bool unweighted) {
+    const double misfit = unweighted ? fit.data * std::log(fit.chi2 / fit.data) : fit.chi2;
+    return misfit + fit.parameters * std::log(static_cast<double>(fit.data));
+}
+
+FitResult fit_ladder(const Measurement& measurement, const FitOptions& options) {
+    FitOptions bulk = options;
+    bulk.model = "bulk";
+    bulk.overlayers.clear();
+    bulk.film.substrate = {};
+    bulk.fit_angle_offset = false;
+    Ladder ladder(measurement, options);
+    ladder.climb("bulk", bulk);
+    if (!options.overlayers.empty()) {
+        FitOptions layered = bulk;
+        layered.model = "overlayer";
+        layered.overlayers = options.overlayers;
+        ladder.climb("overlayer", layered);
+    }
+    if (!options.film.substrate.wavelength_nm.empty()) {
+        FitOptions film = bulk;
+        film.model = "film";
+        film.film = options.film;
+        ladder.climb("film", film);
+    }
+    if (ladder.any() && measurement.angles().size() >= 3) {
+        FitOptions tilted = ladder.options_taken();
+        tilted.fit_angle_offset = true;
+        ladder.climb(tilted.model + " + angle offset", tilted);
+    }
+    return ladder.result();
+}
+
+}  // namespace drude
