@@ -5,9 +5,9 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
-#include "temporary_folder.h"
 #include "materials/material.h"
 #include "scene_text.h"
+#include "temporary_folder.h"
 
 namespace drude {
 namespace {

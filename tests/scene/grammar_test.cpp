@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "temporary_folder.h"
 #include "scene_text.h"
+#include "temporary_folder.h"
 
 namespace drude {
 namespace {

@@ -5,10 +5,10 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
-#include "temporary_folder.h"
 #include "scene/builders.h"
 #include "scene/ply.h"
 #include "scene_text.h"
+#include "temporary_folder.h"
 
 namespace drude {
 namespace {
