@@ -119,7 +119,7 @@ TEST(Lights, DensityIsThatOfTheSample) {
     int compared = 0;
     for (int i = 0; i < 4096; ++i) {
         Sampler sampler(7, 0, 0, static_cast<uint32_t>(i / 256), static_cast<uint32_t>(i % 256),
-                        8192);
+                        largest_batch);
         const glm::vec3 at(0.3f, -9.0f, 1.0f);
         const float choice = sampler.next_1d();
         const Lights::Sample s = lights.sample(at, choice, sampler.next_2d());
