@@ -139,11 +139,7 @@ std::string format_lobe_scan(const LobeScan& scan) {
     std::string text;
     for (const auto& [key, value] : scan.header) {
         if (key == solid_angle_key || key == half_angle_key) continue;
-        // A line break inside a value would turn the rest of it into a row of data.
-        std::string line = key + ": " + value;
-        std::replace_if(
-            line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-        text += fmt::format("# {}\n", line);
+        text += format_header_line(key, value);
     }
     text +=
         fmt::format("# {}: {}\n# {}: {}\n{}\n", solid_angle_key,

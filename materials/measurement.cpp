@@ -184,11 +184,7 @@ std::string format_measurement(const Measurement& measurement) {
     }
     std::string text;
     for (const auto& [key, value] : measurement.header) {
-        // A line break inside a value would turn the rest of it into a row of data.
-        std::string line = key + ": " + value;
-        std::replace_if(
-            line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-        text += fmt::format("# {}\n", line);
+        text += format_header_line(key, value);
     }
     text += "wavelength_nm,angle_deg,psi_deg,delta_deg";
     if (sigma || depolarization) text += ",sigma_psi_deg,sigma_delta_deg";

@@ -118,6 +118,13 @@ TextTable parse_text_table(const std::string& text, const std::string& file) {
     return table;
 }
 
+std::string format_header_line(std::string_view key, std::string_view value) {
+    std::string line = fmt::format("{}: {}", key, value);
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return fmt::format("# {}\n", line);
+}
+
 TextTable read_text_table(const std::string& path) {
     return parse_text_table(read_file(path), path);
 }

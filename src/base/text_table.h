@@ -36,6 +36,10 @@ struct TextTable {
 // also where there is no line of column names at all.
 TextTable parse_text_table(const std::string& text, const std::string& file);
 
+// "# KEY: VALUE\n". Line breaks become blanks: inside a value one would turn the rest of it into a
+// row of data.
+std::string format_header_line(std::string_view key, std::string_view value);
+
 // read_file and parse_text_table.
 TextTable read_text_table(const std::string& path);
 

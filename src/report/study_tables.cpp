@@ -4,21 +4,15 @@
 #include <cmath>
 
 #include "base/numbers.h"
+#include "base/text_table.h"
 #include "report/study_report.h"
 
 namespace drude {
 
 namespace {
 
-// Header values stand on one line.
-std::string one_line(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    return text;
-}
-
 std::string header(const std::string& key, const std::string& value) {
-    return value.empty() ? "" : fmt::format("# {}: {}\n", key, one_line(value));
+    return value.empty() ? "" : format_header_line(key, value);
 }
 
 std::string row(const std::vector<double>& values) {
