@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/executor.h"
+#include "fitter/dispersion_fit.h"
 #include "fitter/film_fit.h"
 #include "fitter/fit_data.h"
 #include "fitter/model_ladder.h"
@@ -64,6 +65,12 @@ void check_structure(const FitOptions& options) {
             "the estimator inversion solves a bare surface only, found the model '{}'; "
             "expected psi-delta or rho2",
             options.model);
+    }
+    if (!options.dispersion.empty() && (film || options.estimator == "inversion")) {
+        user_error("{}", film ? "the model film takes n and k of its materials as known, found a "
+                                "dispersion too; expected it with bulk, overlayer or auto"
+                              : "the estimator inversion solves every wavelength by itself, found "
+                                "a dispersion; expected psi-delta or rho2");
     }
     if (!film) return;
     if (options.film.substrate.wavelength_nm.empty()) {
@@ -172,6 +179,15 @@ void warn_about_result(FitResult* result, bool unweighted) {
             fmt::format("a standard deviation exceeds its value at {} of {} wavelengths ({})",
                         vague.size(), result->points.size(), wavelength_list(vague)));
     }
+    for (const FittedParameter& parameter : result->common) {
+        if (!parameter.identifiable) {
+            result->warnings.push_back(fmt::format(
+                "the data do not determine the {}: it is not reported", parameter.name));
+        } else if (parameter.at_bound) {
+            result->warnings.push_back(fmt::format("the {} ends at the bound {:.6g} of its range",
+                                                   parameter.name, parameter.value));
+        }
+    }
     if (result->dof() <= 0) {
         result->warnings.push_back(
             "as many parameters as data: they cannot contradict the model, there is no reduced "
@@ -222,7 +238,20 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
                                                                   groups.back().wavelength_nm);
         if (!warning.empty()) result.warnings.push_back(warning);
     }
-    if (options.fit_angle_offset) {
+    if (!options.dispersion.empty()) {
+        DispersionFit fit =
+            fit_dispersion(groups, estimator, options.dispersion, options.fit_angle_offset,
+                           options.unweighted, options.threads);
+        result.dispersion = fit.name;
+        result.points = std::move(fit.points);
+        result.parameters = static_cast<int>(fit.parameters.size());
+        result.common = std::move(fit.parameters);
+        result.common_correlation = std::move(fit.correlation);
+        result.condition = fit.condition;
+        result.ladder = std::move(fit.ladder);
+        result.chi2 = fit.chi2;
+        result.data = fit.data;
+    } else if (options.fit_angle_offset) {
         OffsetFit fit = fit_with_offset(groups, estimator, options.threads);
         result.points = std::move(fit.points);
         result.common = {fit.offset};
@@ -234,7 +263,7 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
     }
 
     for (const FittedPoint& point : result.points) {
-        if (!point.identifiable) continue;
+        if (!point.identifiable || !options.dispersion.empty()) continue;
         result.chi2 += point.chi2;
         result.data += point.data;
         result.parameters += 2;

@@ -35,6 +35,9 @@ struct FitOptions {
     std::string model = "bulk";
     std::vector<FilmLayer> overlayers;  // the first is the outermost
     FilmModel film;
+    // What n and k of the models bulk and overlayer follow over the wavelengths: "" for no formula,
+    // every wavelength by itself; otherwise what fit_dispersion() takes.
+    std::string dispersion;
     // A common error of the angles of incidence as one more parameter; takes three angles or more.
     bool fit_angle_offset = false;
     std::string lobe;  // refused: Psi and Delta hold nothing about roughness
@@ -52,7 +55,8 @@ const std::vector<std::string>& estimator_names();
 const std::vector<std::string>& fit_model_names();
 
 // Fits without start values. The models bulk and overlayer take every wavelength by itself, with
-// n >= 1e-6 and k >= 0; film takes all of them together, from a search of its own.
+// n >= 1e-6 and k >= 0, or follow a dispersion formula; film takes all wavelengths together, from a
+// search of its own.
 //
 // Throws Error (user) for an unknown estimator or model, for options that the model lacks, has no
 // use for or that are out of range, and for what Measurement::check forbids; Error (answer_is_no)

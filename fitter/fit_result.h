@@ -48,6 +48,8 @@ struct LadderRung {
 struct FitResult {
     std::string estimator;  // "psi-delta", "rho2", "inversion"
     std::string model;      // "bulk", "overlayer", "film"
+    // The formula that n and k of `points` follow, its parameters in `common`; "" for none.
+    std::string dispersion;
     // Ascending in wavelength: of the surface ("bulk"), of what lies below the layers
     // ("overlayer"), of the film itself ("film").
     std::vector<FittedPoint> points;
@@ -60,10 +62,11 @@ struct FitResult {
     // The next best thickness of a film that is a minimum by itself, and how much worse its
     // chi-square is; 0 and 0 where the search met none.
     double rival_thickness_nm = 0, rival_chi2_excess = 0;
-    double chi2 = 0;                 // summed over the identifiable points
-    int data = 0;                    // residuals in that sum
-    int parameters = 0;              // fitted to them
-    std::vector<LadderRung> ladder;  // of the model "auto", in the order tried; otherwise empty
+    double chi2 = 0;     // summed over the identifiable points
+    int data = 0;        // residuals in that sum
+    int parameters = 0;  // fitted to them
+    // Of the model "auto", or of a dispersion that picks its size, in the order tried.
+    std::vector<LadderRung> ladder;
     std::vector<std::string> warnings;
 
     int dof() const { return data - parameters; }

@@ -95,9 +95,13 @@ class Ladder {
 
 }  // namespace
 
+double bayesian_criterion(double chi2, int data, int parameters, bool unweighted) {
+    const double misfit = unweighted ? data * std::log(chi2 / data) : chi2;
+    return misfit + parameters * std::log(static_cast<double>(data));
+}
+
 double bayesian_criterion(const FitResult& fit, bool unweighted) {
-    const double misfit = unweighted ? fit.data * std::log(fit.chi2 / fit.data) : fit.chi2;
-    return misfit + fit.parameters * std::log(static_cast<double>(fit.data));
+    return bayesian_criterion(fit.chi2, fit.data, fit.parameters, unweighted);
 }
 
 FitResult fit_ladder(const Measurement& measurement, const FitOptions& options) {
@@ -117,6 +121,7 @@ FitResult fit_ladder(const Measurement& measurement, const FitOptions& options) 
     if (!options.film.substrate.wavelength_nm.empty()) {
         FitOptions film = bulk;
         film.model = "film";
+        film.dispersion.clear();
         film.film = options.film;
         ladder.climb("film", film);
     }

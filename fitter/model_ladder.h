@@ -10,6 +10,7 @@ inline constexpr double ladder_bic_gain = 10;
 
 // chi-square + M ln N with known standard deviations; N ln(chi-square/N) + M ln N where
 // `unweighted`, M parameters and N data (Schwarz, Annals of Statistics 6, 461 (1978)).
+double bayesian_criterion(double chi2, int data, int parameters, bool unweighted);
 double bayesian_criterion(const FitResult& fit, bool unweighted);
 
 // The model "auto" of fit_measurement(): bulk; below `overlayers`, where they are given; a film of

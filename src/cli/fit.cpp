@@ -26,7 +26,7 @@ namespace {
 
 struct FitCommandOptions {
     std::string measurement, format = "auto";
-    std::string estimator = "psi-delta", model = "bulk", lobe;
+    std::string estimator = "psi-delta", model = "bulk", dispersion, lobe;
     std::vector<std::string> overlayers;
     std::string substrate, film_material = "Al2O3-Malitson-o", porosity = "fit";
     double largest_thickness_nm = 10000;
@@ -72,6 +72,7 @@ FitOptions make_fit_options(const FitCommandOptions& options, const CommonOption
     FitOptions fit;
     fit.estimator = options.estimator;
     fit.model = options.model;
+    fit.dispersion = options.dispersion;
     fit.lobe = options.lobe;
     fit.fit_angle_offset = options.angle_offset;
     fit.unweighted = options.unweighted;
@@ -223,6 +224,14 @@ Command fit_command() {
         "substrate is, an angle offset from three angles on. A rung is taken only where the "
         "Bayesian information criterion falls by more than 10 and the reduced chi-square moves "
         "towards 1; the ladder is printed.\n\n"
+        "--dispersion lets n and k follow a formula over all wavelengths, of the models bulk and "
+        "overlayer: drude, drude+2cp (free electrons and two critical points), drude+3lorentz, "
+        "cauchy, sellmeier or 2sellmeier, bruggeman:A,B (a mixture of two materials), spline:N "
+        "(a cubic spline of N intervals as the absorption and its Kramers-Kronig transform). "
+        "compact is the smallest of drude, drude+cp and drude+2cp that the data need, spline "
+        "chooses its intervals so; what was tried is printed. A formula that is too small shows "
+        "in the reduced chi-square: without one every wavelength stands for itself, which is "
+        "never wrong.\n\n"
         "A material is a set (drude materials), a material file, n,k, or a Cauchy formula "
         "cauchy:A,B,C in micrometres. --angle-offset takes a common error of the angles of "
         "incidence as one more parameter and needs three angles.\n\n"
@@ -246,6 +255,8 @@ Command fit_command() {
         options.positional("MEASUREMENT", values->measurement, "CSV or a vendor's export", false);
         options.choice("--estimator", values->estimator, estimator_names(), "what is minimised");
         options.choice("--model", values->model, fit_model_names(), "the sample's structure");
+        options.option("--dispersion", values->dispersion,
+                       "FORMULA of n and k over the wavelengths: compact, drude+2cp, cauchy, ...");
         options.option("--overlayer", values->overlayers,
                        "MATERIAL,NM: a known layer on what is fitted; repeats");
         options.option("--substrate", values->substrate, "MATERIAL below a fitted film");
