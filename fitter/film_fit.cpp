@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "base/error.h"
 #include "base/executor.h"
+#include "fitter/film_average.h"
 #include "fitter/film_search.h"
 #include "fitter/fit_data.h"
 #include "fitter/identifiability.h"
+#include "fitter/roughness.h"
 
 namespace drude {
 
@@ -21,49 +24,101 @@ constexpr double largest_porosity = 0.95;  // beyond, the film is next to nothin
 constexpr double largest_offset = 2 * pi / 180;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-using FilmCost = ceres::AutoDiffCostFunction<FilmResiduals, ceres::DYNAMIC, 1, 1, 1>;
+constexpr double largest_roughness = 100;
+constexpr int parameter_count = 5;
 
 struct FilmSolution {
-    double values[3] = {0, 0, 0};  // thickness in nm, porosity, offset in radians
+    // Thickness in nm, porosity, offset in radians, spread and roughness in nm.
+    double values[parameter_count] = {0, 0, 0, 0, 0};
     double chi2 = std::numeric_limits<double>::infinity();
     bool converged = false;
 };
 
 struct FreeParameters {
-    bool porosity = true, offset = false;
-    bool is_free(int parameter) const {
-        return parameter == 0 || (parameter == 1 ? porosity : offset);
+    bool is_free[parameter_count] = {true, true, false, false, false};
+    int count() const {
+        return static_cast<int>(std::count(std::begin(is_free), std::end(is_free), true));
     }
-    int count() const { return 1 + (porosity ? 1 : 0) + (offset ? 1 : 0); }
 };
 
+FreeParameters free_parameters(const FitOptions& options) {
+    return {{true, !options.film.porosity.has_value(), options.fit_angle_offset,
+             options.film.spread_nm.fitted, options.roughness_nm.fitted}};
+}
+
+struct Bounds {
+    double lower[parameter_count], upper[parameter_count];
+};
+
+Bounds bounds_of(const FilmProblem& problem, const FitOptions& options) {
+    return {{0, 0, -largest_offset, 0, 0},
+            {options.film.largest_thickness_nm, largest_porosity, largest_offset,
+             largest_spread(problem), largest_roughness}};
+}
+
+// An even and smooth film costs three derivatives instead of five.
+std::unique_ptr<ceres::CostFunction> make_cost(const FilmProblem& problem) {
+    using Even = ceres::AutoDiffCostFunction<FilmResiduals, ceres::DYNAMIC, 1, 1, 1>;
+    using Uneven = ceres::AutoDiffCostFunction<FilmResiduals, ceres::DYNAMIC, 1, 1, 1, 1, 1>;
+    const int count = problem.residual_count();
+    if (problem.rough || problem.spread_nodes.size() > 1) {
+        return std::make_unique<Uneven>(new FilmResiduals{&problem}, count);
+    }
+    return std::make_unique<Even>(new FilmResiduals{&problem}, count);
+}
+
+// As many as the cost takes.
+size_t blocks_of(const ceres::CostFunction& cost) {
+    return cost.parameter_block_sizes().size();
+}
+
+// Coherent, as the search for starts takes it.
 FilmProblem make_problem(const Measurement& measurement, const FitOptions& options) {
     FilmProblem problem;
     problem.groups = group_by_wavelength(measurement, options);
     problem.estimator = options.estimator == "rho2" ? Estimator::rho2 : Estimator::psi_delta;
     for (const WavelengthData& group : problem.groups) {
-        problem.substrate.push_back(options.film.substrate.at(group.wavelength_nm));
-        problem.material.push_back(options.film.material.at(group.wavelength_nm));
+        const double nm = group.wavelength_nm;
+        problem.bands.push_back(
+            {{nm, 1, options.film.substrate.at(nm), options.film.material.at(nm)}});
     }
     return problem;
 }
 
+// With everything that is averaged.
+FilmProblem averaged(FilmProblem problem, const FitOptions& options) {
+    if (options.film.bandwidth_nm > 0) {
+        set_bands(options.film, options.film.bandwidth_nm, &problem);
+    }
+    if (options.film.spread_nm.given()) set_spread_nodes(&problem);
+    problem.rough = options.roughness_nm.given();
+    return problem;
+}
+
 FilmSolution refine(const FilmProblem& problem, const FilmStart& start, FreeParameters free,
-                    double largest_nm) {
+                    const FitOptions& fit_options) {
     FilmSolution solution;
     double* const values = solution.values;
     values[0] = start.thickness_nm;
     values[1] = start.porosity;
-    ceres::Problem least_squares;
-    least_squares.AddResidualBlock(
-        new FilmCost(new FilmResiduals{&problem}, problem.residual_count()), nullptr, values,
-        values + 1, values + 2);
-    const double lower[] = {0, 0, -largest_offset};
-    const double upper[] = {largest_nm, largest_porosity, largest_offset};
-    for (int j = 0; j < 3; ++j) {
-        if (free.is_free(j)) {
-            least_squares.SetParameterLowerBound(values + j, 0, lower[j]);
-            least_squares.SetParameterUpperBound(values + j, 0, upper[j]);
+    // At 0 the derivative by the spread vanishes.
+    values[3] = fit_options.film.spread_nm.fitted
+                    ? std::min(0.01 * start.thickness_nm + 1, 0.3 * largest_spread(problem))
+                    : fit_options.film.spread_nm.value;
+    values[4] = fit_options.roughness_nm.fitted ? 2 : fit_options.roughness_nm.value;
+    const std::unique_ptr<ceres::CostFunction> cost = make_cost(problem);
+    ceres::Problem::Options ownership;
+    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem least_squares(ownership);
+    const size_t blocks = blocks_of(*cost);
+    std::vector<double*> addresses;
+    for (size_t j = 0; j < blocks; ++j) addresses.push_back(values + j);
+    least_squares.AddResidualBlock(cost.get(), nullptr, addresses);
+    const Bounds bounds = bounds_of(problem, fit_options);
+    for (size_t j = 0; j < blocks; ++j) {
+        if (free.is_free[j]) {
+            least_squares.SetParameterLowerBound(values + j, 0, bounds.lower[j]);
+            least_squares.SetParameterUpperBound(values + j, 0, bounds.upper[j]);
         } else {
             least_squares.SetParameterBlockConstant(values + j);
         }
@@ -86,36 +141,41 @@ FilmSolution refine(const FilmProblem& problem, const FilmStart& start, FreePara
 // Row-major residuals x free parameters.
 std::vector<double> jacobian_at(const FilmProblem& problem, const FilmSolution& solution,
                                 FreeParameters free, std::vector<double>* residuals) {
-    FilmCost cost(new FilmResiduals{&problem}, problem.residual_count());
-    const size_t rows = static_cast<size_t>(problem.residual_count());
+    const std::unique_ptr<ceres::CostFunction> cost = make_cost(problem);
+    const size_t rows = static_cast<size_t>(problem.residual_count()), blocks = blocks_of(*cost);
     residuals->assign(rows, 0.0);
-    std::vector<std::vector<double>> columns(3, std::vector<double>(rows));
-    const double* parameters[] = {solution.values, solution.values + 1, solution.values + 2};
-    double* jacobians[] = {columns[0].data(), columns[1].data(), columns[2].data()};
-    if (!cost.Evaluate(parameters, residuals->data(), jacobians)) return {};
+    std::vector<std::vector<double>> columns(blocks, std::vector<double>(rows));
+    std::vector<const double*> parameters;
+    std::vector<double*> jacobians;
+    for (size_t j = 0; j < blocks; ++j) {
+        parameters.push_back(solution.values + j);
+        jacobians.push_back(columns[j].data());
+    }
+    if (!cost->Evaluate(parameters.data(), residuals->data(), jacobians.data())) return {};
     std::vector<double> jacobian;
     for (size_t i = 0; i < rows; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            if (free.is_free(j)) jacobian.push_back(columns[static_cast<size_t>(j)][i]);
+        for (size_t j = 0; j < blocks; ++j) {
+            if (free.is_free[j]) jacobian.push_back(columns[j][i]);
         }
     }
     return jacobian;
 }
 
 void set_common(const FilmSolution& solution, FreeParameters free, const Identifiability& known,
-                double sigma_scale, double largest_nm, FitResult* result) {
+                double sigma_scale, const Bounds& bounds, FitResult* result) {
     struct Declared {
         const char* name;
         const char* unit;
-        double scale, lower, upper;  // in the parameter's own unit
+        double scale;
     };
-    const Declared declared[] = {
-        {"thickness", "nm", 1, 0, largest_nm},
-        {"porosity", "", 1, 0, largest_porosity},
-        {"angle offset", "deg", 180 / pi, -largest_offset, largest_offset}};
+    const Declared declared[parameter_count] = {{"thickness", "nm", 1},
+                                                {"porosity", "", 1},
+                                                {"angle offset", "deg", 180 / pi},
+                                                {"thickness spread", "nm", 1},
+                                                {"roughness", "nm", 1}};
     size_t column = 0;
-    for (int j = 0; j < 3; ++j) {
-        if (!free.is_free(j)) continue;
+    for (size_t j = 0; j < parameter_count; ++j) {
+        if (!free.is_free[j]) continue;
         const Declared& d = declared[j];
         FittedParameter parameter;
         parameter.name = d.name;
@@ -123,9 +183,9 @@ void set_common(const FilmSolution& solution, FreeParameters free, const Identif
         parameter.identifiable = known.identifiable[column];
         parameter.value = parameter.identifiable ? solution.values[j] * d.scale : not_known;
         parameter.sigma = known.sigma[column] * d.scale * sigma_scale;
-        const double margin = 1e-9 * (d.upper - d.lower);
-        parameter.at_bound =
-            solution.values[j] <= d.lower + margin || solution.values[j] >= d.upper - margin;
+        const double margin = 1e-9 * (bounds.upper[j] - bounds.lower[j]);
+        parameter.at_bound = solution.values[j] <= bounds.lower[j] + margin ||
+                             solution.values[j] >= bounds.upper[j] - margin;
         result->common.push_back(parameter);
         ++column;
     }
@@ -140,7 +200,7 @@ void set_points(const FilmProblem& problem, const FilmSolution& solution, double
         FittedPoint point;
         point.wavelength_nm = problem.groups[i].wavelength_nm;
         const auto index =
-            film_index(problem.material[i], ceres::Jet<double, 1>(solution.values[1], 0));
+            film_index(problem.centre(i).material, ceres::Jet<double, 1>(solution.values[1], 0));
         point.n = index.n.a;
         point.k = index.k.a;
         point.sigma_n = std::abs(index.n.v[0]) * sigma_porosity;
@@ -173,6 +233,9 @@ void set_layer(const FilmSolution& solution, const FitOptions& options, FitResul
         constants.sigma_n.push_back(point.sigma_n);
         constants.sigma_k.push_back(point.sigma_k);
     }
+    if (solution.values[4] > 0) {
+        result->layers.push_back(roughness_layer(constants, solution.values[4]));
+    }
     result->layers.push_back(std::move(layer));
     result->substrate = options.film.substrate;
 }
@@ -189,7 +252,13 @@ void set_rival(const std::vector<FilmSolution>& solutions, FitResult* result) {
     }
 }
 
-void warn(FitResult* result, bool unweighted) {
+void warn(FitResult* result, const FitOptions& options) {
+    const bool unweighted = options.unweighted;
+    if (options.film.spread_nm.given()) {
+        result->warnings.push_back(
+            "the material holds the mean thickness: its spread belongs to this beam, and is not "
+            "written");
+    }
     for (const FittedParameter& parameter : result->common) {
         if (!parameter.identifiable) {
             result->warnings.push_back(
@@ -229,8 +298,9 @@ void warn(FitResult* result, bool unweighted) {
 }  // namespace
 
 FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
-    const FilmProblem problem = make_problem(measurement, options);
-    const FreeParameters free{!options.film.porosity.has_value(), options.fit_angle_offset};
+    const FilmProblem coherent = make_problem(measurement, options);
+    const FilmProblem problem = averaged(coherent, options);
+    const FreeParameters free = free_parameters(options);
     FitResult result;
     result.estimator = options.estimator;
     result.model = options.model;
@@ -250,10 +320,10 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
         for (int i = 0; i <= 9; ++i) porosities.push_back(0.05 * i);
     }
     const std::vector<FilmStart> starts = search_film(
-        problem, porosities, options.film.largest_thickness_nm, starts_refined, options.threads);
+        coherent, porosities, options.film.largest_thickness_nm, starts_refined, options.threads);
     std::vector<FilmSolution> solutions(starts.size());
     parallel_for(starts.size(), options.threads, [&](size_t i) {
-        solutions[i] = refine(problem, starts[i], free, options.film.largest_thickness_nm);
+        solutions[i] = refine(problem, starts[i], free, options);
     });
     std::stable_sort(solutions.begin(), solutions.end(),
                      [](const FilmSolution& a, const FilmSolution& b) {
@@ -280,11 +350,11 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
     for (const double residual : residuals) result.chi2 += residual * residual;
     const double scale =
         options.unweighted && result.dof() > 0 ? std::sqrt(result.chi2_reduced()) : 1;
-    set_common(best, free, known, scale, options.film.largest_thickness_nm, &result);
-    set_points(problem, best, free.porosity ? known.sigma[1] * scale : 0, residuals, &result);
+    set_common(best, free, known, scale, bounds_of(problem, options), &result);
+    set_points(problem, best, free.is_free[1] ? known.sigma[1] * scale : 0, residuals, &result);
     set_layer(best, options, &result);
     set_rival(solutions, &result);
-    warn(&result, options.unweighted);
+    warn(&result, options);
     return result;
 }
 

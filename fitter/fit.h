@@ -16,6 +16,14 @@
 
 namespace drude {
 
+// A quantity that is known, or fitted.
+struct KnownOrFitted {
+    double value = 0;
+    bool fitted = false;
+
+    bool given() const { return fitted || value != 0; }
+};
+
 // What the model "film" knows beforehand: light meets a film of unknown thickness, a Bruggeman
 // mixture of `material` with empty pores, on a known substrate.
 struct FilmModel {
@@ -23,6 +31,11 @@ struct FilmModel {
     OpticalConstants material;
     std::optional<double> porosity;  // volume fraction of the pores, in [0, 0.95]; empty: fitted
     double largest_thickness_nm = 10000;  // the search ends here; in [1, 1e5]
+    // Standard deviation of the thickness over the beam, in nm, at least 0: it takes contrast from
+    // the fringes and depolarises.
+    KnownOrFitted spread_nm;
+    // Of the spectrometer's slit, full width at half maximum of a Gaussian, in nm; in [0, 50].
+    double bandwidth_nm = 0;
 };
 
 struct FitOptions {
@@ -35,6 +48,10 @@ struct FitOptions {
     std::string model = "bulk";
     std::vector<FilmLayer> overlayers;  // the first is the outermost
     FilmModel film;
+    // Roughness as a layer of half void, half of what lies below it (Bruggeman), on the film of the
+    // model film, on what is fitted otherwise: its thickness in nm, at least 0. Fitted for films
+    // only: a thin layer on unknown n and k is indistinguishable from other n and k.
+    KnownOrFitted roughness_nm;
     // What n and k of the models bulk and overlayer follow over the wavelengths: "" for no formula,
     // every wavelength by itself; otherwise what fit_dispersion() takes.
     std::string dispersion;

@@ -49,7 +49,8 @@ std::vector<WavelengthData> group_by_wavelength(const Measurement& measurement,
     for (const MeasurementRow& row : rows) {
         if (groups.empty() || groups.back().wavelength_nm != row.wavelength_nm) {
             groups.push_back(
-                {row.wavelength_nm, {}, layers_at(options.overlayers, row.wavelength_nm)});
+                {row.wavelength_nm, {}, layers_at(options.overlayers, row.wavelength_nm),
+                 options.roughness_nm.value});
         }
         double sigma_psi = 1, sigma_delta = 1;
         if (!options.unweighted) {

@@ -98,7 +98,7 @@ std::string minimise_from(const AveragedIndex& start, const WavelengthData& data
                           double* index) {
     make_start(start, index);
     std::string failure = minimise(cost, index);
-    if (data.layers.empty()) return failure;
+    if (data.bare()) return failure;
     double best = failure.empty() ? chi2_at(*cost, index) : std::numeric_limits<double>::infinity();
     constexpr double others[][2] = {{0.2, 3},   {1, 6},   {0.6, 1.5},
                                     {2.5, 3.5}, {4, 0.1}, {1.5, 0.01}};
@@ -186,7 +186,7 @@ FittedPoint fit_point(const WavelengthData& data, Estimator estimator) {
     }
     // Delta takes no part in rho2, and neither does what follows from it. Below layers the closed
     // form gives pseudo-values, whose spread is no fault of the model.
-    if (estimator != Estimator::rho2 && data.layers.empty()) {
+    if (estimator != Estimator::rho2 && data.bare()) {
         point.spread_n = inverted.spread_n;
         point.spread_k = inverted.spread_k;
     }
