@@ -12,6 +12,7 @@
 #include "fitter/identifiability.h"
 #include "fitter/kramers_kronig_spline.h"
 #include "fitter/model_ladder.h"
+#include "fitter/offset_fit.h"
 #include "fitter/point_residuals.h"
 #include "materials/dispersion.h"
 
@@ -19,7 +20,6 @@ namespace drude {
 
 namespace {
 
-constexpr double largest_offset = 2 * pi / 180;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t starts_refined = 6;
 
@@ -59,8 +59,8 @@ Solution refine(const DispersionModel& model, const Setup& setup, std::vector<do
         problem.SetParameterUpperBound(p, static_cast<int>(j), model.parameters()[j].upper);
     }
     if (setup.fit_offset) {
-        problem.SetParameterLowerBound(&solution.offset, 0, -largest_offset);
-        problem.SetParameterUpperBound(&solution.offset, 0, largest_offset);
+        problem.SetParameterLowerBound(&solution.offset, 0, -largest_angle_offset);
+        problem.SetParameterUpperBound(&solution.offset, 0, largest_angle_offset);
     } else {
         problem.SetParameterBlockConstant(&solution.offset);
     }
@@ -151,8 +151,8 @@ DispersionFit make_fit(const DispersionModel& model, const Setup& setup, const S
         DispersionParameter offset;
         offset.name = "angle offset";
         offset.unit = "deg";
-        offset.lower = -largest_offset;
-        offset.upper = largest_offset;
+        offset.lower = -largest_angle_offset;
+        offset.upper = largest_angle_offset;
         fit.parameters.push_back(make_parameter(offset, solution.offset, 180 / pi, width, known));
     }
     size_t row = 0;

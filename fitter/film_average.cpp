@@ -5,22 +5,13 @@
 
 namespace drude {
 
-namespace {
-
-// The phase of a fringe, 4 pi n d/lambda, may scatter by so many radians.
-constexpr double largest_phase_spread = 6;
-
-struct Nodes {
-    std::vector<double> x, weight;
-};
-
 // The trapezoidal rule for a Gaussian of standard deviation 1: with steps h the average of
 // exp(i phase x) is wrong by exp(-(2 pi/h - phase)^2/2), which is spectrally small. Multiple
 // reflections turn twice as fast.
-Nodes gaussian_nodes(double phase) {
+GaussianNodes gaussian_nodes(double phase) {
     constexpr double reach = 4.5;  // 7e-6 of it lies beyond
     const int half = static_cast<int>(std::ceil(reach * (2 * phase + 5) / (2 * pi)));
-    Nodes nodes;
+    GaussianNodes nodes;
     double sum = 0;
     for (int i = -half; i <= half; ++i) {
         const double x = reach * i / half;
@@ -32,16 +23,18 @@ Nodes gaussian_nodes(double phase) {
     return nodes;
 }
 
-}  // namespace
+double gaussian_sigma(double full_width) {
+    return full_width / std::sqrt(8 * std::log(2.0));
+}
 
 void set_bands(const FilmModel& film, double bandwidth_nm, FilmProblem* problem) {
-    const double sigma = bandwidth_nm / std::sqrt(8 * std::log(2.0));
+    const double sigma = gaussian_sigma(bandwidth_nm);
     for (std::vector<BandNode>& band : problem->bands) {
         const BandNode centre = band[band.size() / 2];
         // d phase / d lambda = phase / lambda, a fifth more by dispersion.
         const double phase = 4 * pi * centre.material.n * film.largest_thickness_nm * 1.2 * sigma /
                              (centre.wavelength_nm * centre.wavelength_nm);
-        const Nodes nodes = gaussian_nodes(std::min(phase, largest_phase_spread));
+        const GaussianNodes nodes = gaussian_nodes(std::min(phase, largest_phase_spread));
         band.clear();
         for (size_t i = 0; i < nodes.x.size(); ++i) {
             const double nm = centre.wavelength_nm + sigma * nodes.x[i];
@@ -51,7 +44,7 @@ void set_bands(const FilmModel& film, double bandwidth_nm, FilmProblem* problem)
 }
 
 void set_spread_nodes(FilmProblem* problem) {
-    const Nodes nodes = gaussian_nodes(largest_phase_spread);
+    const GaussianNodes nodes = gaussian_nodes(largest_phase_spread);
     problem->spread_nodes = nodes.x;
     problem->spread_weights = nodes.weight;
 }

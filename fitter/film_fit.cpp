@@ -1,16 +1,15 @@
 #include "fitter/film_fit.h"
 
-#include <ceres/ceres.h>
+#include <ceres/jet.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "base/error.h"
 #include "base/executor.h"
-#include "fitter/film_average.h"
 #include "fitter/film_search.h"
+#include "fitter/film_solver.h"
 #include "fitter/fit_data.h"
 #include "fitter/identifiability.h"
 #include "fitter/roughness.h"
@@ -20,172 +19,24 @@ namespace drude {
 namespace {
 
 constexpr size_t starts_refined = 8;
-constexpr double largest_porosity = 0.95;  // beyond, the film is next to nothing
-constexpr double largest_offset = 2 * pi / 180;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-constexpr double largest_roughness = 100;
-constexpr int parameter_count = 5;
-
-struct FilmSolution {
-    // Thickness in nm, porosity, offset in radians, spread and roughness in nm.
-    double values[parameter_count] = {0, 0, 0, 0, 0};
-    double chi2 = std::numeric_limits<double>::infinity();
-    bool converged = false;
-};
-
-struct FreeParameters {
-    bool is_free[parameter_count] = {true, true, false, false, false};
-    int count() const {
-        return static_cast<int>(std::count(std::begin(is_free), std::end(is_free), true));
-    }
-};
-
-FreeParameters free_parameters(const FitOptions& options) {
-    return {{true, !options.film.porosity.has_value(), options.fit_angle_offset,
-             options.film.spread_nm.fitted, options.roughness_nm.fitted}};
-}
-
-struct Bounds {
-    double lower[parameter_count], upper[parameter_count];
-};
-
-Bounds bounds_of(const FilmProblem& problem, const FitOptions& options) {
-    return {{0, 0, -largest_offset, 0, 0},
-            {options.film.largest_thickness_nm, largest_porosity, largest_offset,
-             largest_spread(problem), largest_roughness}};
-}
-
-// An even and smooth film costs three derivatives instead of five.
-std::unique_ptr<ceres::CostFunction> make_cost(const FilmProblem& problem) {
-    using Even = ceres::AutoDiffCostFunction<FilmResiduals, ceres::DYNAMIC, 1, 1, 1>;
-    using Uneven = ceres::AutoDiffCostFunction<FilmResiduals, ceres::DYNAMIC, 1, 1, 1, 1, 1>;
-    const int count = problem.residual_count();
-    if (problem.rough || problem.spread_nodes.size() > 1) {
-        return std::make_unique<Uneven>(new FilmResiduals{&problem}, count);
-    }
-    return std::make_unique<Even>(new FilmResiduals{&problem}, count);
-}
-
-// As many as the cost takes.
-size_t blocks_of(const ceres::CostFunction& cost) {
-    return cost.parameter_block_sizes().size();
-}
-
-// Coherent, as the search for starts takes it.
-FilmProblem make_problem(const Measurement& measurement, const FitOptions& options) {
-    FilmProblem problem;
-    problem.groups = group_by_wavelength(measurement, options);
-    problem.estimator = options.estimator == "rho2" ? Estimator::rho2 : Estimator::psi_delta;
-    for (const WavelengthData& group : problem.groups) {
-        const double nm = group.wavelength_nm;
-        problem.bands.push_back(
-            {{nm, 1, options.film.substrate.at(nm), options.film.material.at(nm)}});
-    }
-    return problem;
-}
-
-// With everything that is averaged.
-FilmProblem averaged(FilmProblem problem, const FitOptions& options) {
-    if (options.film.bandwidth_nm > 0) {
-        set_bands(options.film, options.film.bandwidth_nm, &problem);
-    }
-    if (options.film.spread_nm.given()) set_spread_nodes(&problem);
-    problem.rough = options.roughness_nm.given();
-    return problem;
-}
-
-FilmSolution refine(const FilmProblem& problem, const FilmStart& start, FreeParameters free,
-                    const FitOptions& fit_options) {
-    FilmSolution solution;
-    double* const values = solution.values;
-    values[0] = start.thickness_nm;
-    values[1] = start.porosity;
-    // At 0 the derivative by the spread vanishes.
-    values[3] = fit_options.film.spread_nm.fitted
-                    ? std::min(0.01 * start.thickness_nm + 1, 0.3 * largest_spread(problem))
-                    : fit_options.film.spread_nm.value;
-    values[4] = fit_options.roughness_nm.fitted ? 2 : fit_options.roughness_nm.value;
-    const std::unique_ptr<ceres::CostFunction> cost = make_cost(problem);
-    ceres::Problem::Options ownership;
-    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::Problem least_squares(ownership);
-    const size_t blocks = blocks_of(*cost);
-    std::vector<double*> addresses;
-    for (size_t j = 0; j < blocks; ++j) addresses.push_back(values + j);
-    least_squares.AddResidualBlock(cost.get(), nullptr, addresses);
-    const Bounds bounds = bounds_of(problem, fit_options);
-    for (size_t j = 0; j < blocks; ++j) {
-        if (free.is_free[j]) {
-            least_squares.SetParameterLowerBound(values + j, 0, bounds.lower[j]);
-            least_squares.SetParameterUpperBound(values + j, 0, bounds.upper[j]);
-        } else {
-            least_squares.SetParameterBlockConstant(values + j);
-        }
-    }
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;
-    options.max_num_iterations = 200;
-    options.function_tolerance = 1e-12;
-    options.parameter_tolerance = 1e-12;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &least_squares, &summary);
-    solution.chi2 = 2 * summary.final_cost;
-    solution.converged =
-        summary.termination_type == ceres::CONVERGENCE && std::isfinite(summary.final_cost);
-    return solution;
-}
-
-// Row-major residuals x free parameters.
-std::vector<double> jacobian_at(const FilmProblem& problem, const FilmSolution& solution,
-                                FreeParameters free, std::vector<double>* residuals) {
-    const std::unique_ptr<ceres::CostFunction> cost = make_cost(problem);
-    const size_t rows = static_cast<size_t>(problem.residual_count()), blocks = blocks_of(*cost);
-    residuals->assign(rows, 0.0);
-    std::vector<std::vector<double>> columns(blocks, std::vector<double>(rows));
-    std::vector<const double*> parameters;
-    std::vector<double*> jacobians;
-    for (size_t j = 0; j < blocks; ++j) {
-        parameters.push_back(solution.values + j);
-        jacobians.push_back(columns[j].data());
-    }
-    if (!cost->Evaluate(parameters.data(), residuals->data(), jacobians.data())) return {};
-    std::vector<double> jacobian;
-    for (size_t i = 0; i < rows; ++i) {
-        for (size_t j = 0; j < blocks; ++j) {
-            if (free.is_free[j]) jacobian.push_back(columns[j][i]);
-        }
-    }
-    return jacobian;
-}
-
-void set_common(const FilmSolution& solution, FreeParameters free, const Identifiability& known,
-                double sigma_scale, const Bounds& bounds, FitResult* result) {
-    struct Declared {
-        const char* name;
-        const char* unit;
-        double scale;
-    };
-    const Declared declared[parameter_count] = {{"thickness", "nm", 1},
-                                                {"porosity", "", 1},
-                                                {"angle offset", "deg", 180 / pi},
-                                                {"thickness spread", "nm", 1},
-                                                {"roughness", "nm", 1}};
+void set_common(const FilmSolution& solution, const FreeFilmParameters& free,
+                const Identifiability& known, double sigma_scale, const FilmRange& range,
+                FitResult* result) {
     size_t column = 0;
-    for (size_t j = 0; j < parameter_count; ++j) {
-        if (!free.is_free[j]) continue;
-        const Declared& d = declared[j];
+    for (size_t j = 0; j < film_parameter_count; ++j) {
+        if (!free[j]) continue;
+        const FilmParameterInfo& info = film_parameters()[j];
         FittedParameter parameter;
-        parameter.name = d.name;
-        parameter.unit = d.unit;
+        parameter.name = info.name;
+        parameter.unit = info.unit;
         parameter.identifiable = known.identifiable[column];
-        parameter.value = parameter.identifiable ? solution.values[j] * d.scale : not_known;
-        parameter.sigma = known.sigma[column] * d.scale * sigma_scale;
-        const double margin = 1e-9 * (bounds.upper[j] - bounds.lower[j]);
-        parameter.at_bound = solution.values[j] <= bounds.lower[j] + margin ||
-                             solution.values[j] >= bounds.upper[j] - margin;
+        parameter.value = parameter.identifiable ? solution.values[j] * info.scale : not_known;
+        parameter.sigma = known.sigma[column] * info.scale * sigma_scale;
+        const double margin = 1e-9 * (range.upper[j] - range.lower[j]);
+        parameter.at_bound = solution.values[j] <= range.lower[j] + margin ||
+                             solution.values[j] >= range.upper[j] - margin;
         result->common.push_back(parameter);
         ++column;
     }
@@ -298,9 +149,10 @@ void warn(FitResult* result, const FitOptions& options) {
 }  // namespace
 
 FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
-    const FilmProblem coherent = make_problem(measurement, options);
-    const FilmProblem problem = averaged(coherent, options);
-    const FreeParameters free = free_parameters(options);
+    const FilmProblem coherent = make_coherent_film_problem(measurement, options);
+    const FilmProblem problem = make_film_problem(measurement, options);
+    const FreeFilmParameters free = free_film_parameters(options);
+    const FilmRange range = film_range(problem, options);
     FitResult result;
     result.estimator = options.estimator;
     result.model = options.model;
@@ -311,7 +163,7 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
         if (!warning.empty()) result.warnings.push_back(warning);
     }
     result.data = problem.residual_count();
-    result.parameters = free.count();
+    result.parameters = static_cast<int>(std::count(free.begin(), free.end(), true));
 
     std::vector<double> porosities;
     if (options.film.porosity) {
@@ -323,7 +175,7 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
         coherent, porosities, options.film.largest_thickness_nm, starts_refined, options.threads);
     std::vector<FilmSolution> solutions(starts.size());
     parallel_for(starts.size(), options.threads, [&](size_t i) {
-        solutions[i] = refine(problem, starts[i], free, options);
+        solutions[i] = solve_film(problem, film_start(starts[i], problem, options), free, range);
     });
     std::stable_sort(solutions.begin(), solutions.end(),
                      [](const FilmSolution& a, const FilmSolution& b) {
@@ -337,8 +189,8 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
     }
     const FilmSolution& best = solutions.front();
     std::vector<double> residuals;
-    const std::vector<double> jacobian = jacobian_at(problem, best, free, &residuals);
-    const Identifiability known = analyse_jacobian(jacobian, result.data, free.count());
+    const std::vector<double> jacobian = film_jacobian(problem, best, free, &residuals);
+    const Identifiability known = analyse_jacobian(jacobian, result.data, result.parameters);
     // Beyond the range that was searched a standard deviation says that nothing is known: what
     // rounding leaves of a vanishing derivative still has a rank.
     if (jacobian.empty() || !known.identifiable[0] ||
@@ -350,9 +202,11 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
     for (const double residual : residuals) result.chi2 += residual * residual;
     const double scale =
         options.unweighted && result.dof() > 0 ? std::sqrt(result.chi2_reduced()) : 1;
-    set_common(best, free, known, scale, bounds_of(problem, options), &result);
-    set_points(problem, best, free.is_free[1] ? known.sigma[1] * scale : 0, residuals, &result);
+    set_common(best, free, known, scale, range, &result);
+    set_points(problem, best, free[1] ? known.sigma[1] * scale : 0, residuals, &result);
     set_layer(best, options, &result);
+    result.thickness_spread_nm = best.values[3];
+    result.bandwidth_nm = options.film.bandwidth_nm;
     set_rival(solutions, &result);
     warn(&result, options);
     return result;

@@ -59,8 +59,8 @@ ComplexIndex<T> film_index(const Index& material, const T& porosity) {
 // One reflection at a node of the band, the film being `thickness` nm thick.
 template <class T>
 Reflection<T> film_reflection(const FilmProblem& problem, const BandNode& node,
-                              const ComplexIndex<T>& index, const T& thickness,
-                              const T& roughness, const T& cos_theta) {
+                              const ComplexIndex<T>& index, const T& thickness, const T& roughness,
+                              const T& cos_theta) {
     const ComplexIndex<T> substrate{T(node.substrate.n), T(node.substrate.k)};
     const T wavelength(node.wavelength_nm);
     if (!problem.rough) {
@@ -120,8 +120,8 @@ template <class T>
 bool film_residuals(const FilmProblem& problem, const FilmParameters<T>& p, T* residuals) {
     for (size_t i = 0; i < problem.groups.size(); ++i) {
         if (!film_residuals(problem, i, p, residuals)) return false;
-        residuals += static_cast<size_t>(problem.residuals_per_point()) *
-                     problem.groups[i].points.size();
+        residuals +=
+            static_cast<size_t>(problem.residuals_per_point()) * problem.groups[i].points.size();
     }
     return true;
 }

@@ -87,7 +87,8 @@ double chi2_of(const FilmProblem& problem, size_t stride, double thickness_nm, d
     std::vector<double> residuals;
     for (size_t i = 0; i < problem.groups.size(); i += stride) {
         residuals.resize(2 * problem.groups[i].points.size());
-        if (!film_residuals<double>(problem, i, {thickness_nm, porosity, 0, 0, 0}, residuals.data())) {
+        if (!film_residuals<double>(problem, i, {thickness_nm, porosity, 0, 0, 0},
+                                    residuals.data())) {
             return std::numeric_limits<double>::infinity();
         }
         const size_t used =

@@ -12,6 +12,8 @@
 #include "fitter/model_ladder.h"
 #include "fitter/offset_fit.h"
 #include "fitter/point_fit.h"
+#include "fitter/robust_fit.h"
+#include "fitter/roughness.h"
 
 namespace drude {
 
@@ -88,6 +90,36 @@ void check_structure(const FitOptions& options) {
     }
 }
 
+void check_roughness(const FitOptions& options) {
+    const KnownOrFitted& roughness = options.roughness_nm;
+    if (!(roughness.value >= 0 && roughness.value <= 100)) {
+        user_error("found a roughness of {} nm, expected 0 to 100", roughness.value);
+    }
+    if (roughness.given() && options.estimator == "inversion") {
+        user_error(
+            "the estimator inversion solves a bare, smooth surface only, found a roughness; "
+            "expected psi-delta or rho2");
+    }
+    if (roughness.fitted && options.model != "film") {
+        throw Error(Cause::answer_is_no,
+                    "a rough layer on unknown n and k cannot be told from other n and k: give its "
+                    "thickness (--roughness 3), or fit it on a film of known materials");
+    }
+    const KnownOrFitted& spread = options.film.spread_nm;
+    const double bandwidth = options.film.bandwidth_nm;
+    if (!(spread.value >= 0 && spread.value <= 1000)) {
+        user_error("found a thickness spread of {} nm, expected 0 to 1000", spread.value);
+    }
+    if (!(bandwidth >= 0 && bandwidth <= 50)) {
+        user_error("found a bandwidth of {} nm, expected 0 to 50", bandwidth);
+    }
+    const bool film = options.model == "film" || options.model == "auto";
+    if ((spread.given() || bandwidth > 0) && !film) {
+        user_error("a thickness spread or a bandwidth belongs to the model 'film', found '{}'",
+                   options.model);
+    }
+}
+
 void check_offset(const Measurement& measurement, const FitOptions& options) {
     if (!options.fit_angle_offset) return;
     if (options.estimator == "inversion") {
@@ -120,6 +152,7 @@ void check_options(const FitOptions& options) {
                    options.first_nm, options.last_nm);
     }
     check_structure(options);
+    check_roughness(options);
     if (!options.lobe.empty()) {
         throw Error(Cause::answer_is_no,
                     "Psi and Delta hold nothing about the lobe '" + options.lobe +
@@ -137,6 +170,18 @@ std::string wavelength_list(const std::vector<double>& wavelengths) {
     }
     if (wavelengths.size() > 5) list += ", ...";
     return list + " nm";
+}
+
+OpticalConstants constants_of(const std::vector<FittedPoint>& points) {
+    OpticalConstants constants;
+    constants.name = "the fitted surface";
+    for (const FittedPoint& point : points) {
+        if (!point.identifiable) continue;
+        constants.wavelength_nm.push_back(point.wavelength_nm);
+        constants.n.push_back(point.n);
+        constants.k.push_back(point.k);
+    }
+    return constants;
 }
 
 // Weights that say nothing of the noise: the residuals themselves say how large it is.
@@ -223,6 +268,7 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
     check_options(options);
     measurement.check();
     check_offset(measurement, options);
+    if (options.robust != "none") return fit_robust(measurement, options);
     if (options.model == "auto") return fit_ladder(measurement, options);
     if (options.model == "film") return fit_film(measurement, options);
     FitResult result;
@@ -274,6 +320,10 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
                                 "and k ({})",
                                 measurement.file.empty() ? "measurement" : measurement.file,
                                 result.points.size(), result.points.front().reason));
+    }
+    if (options.roughness_nm.value > 0) {
+        result.layers.push_back(
+            roughness_layer(constants_of(result.points), options.roughness_nm.value));
     }
     if (options.unweighted && result.dof() > 0) scale_sigmas(&result);
     warn_about_result(&result, options.unweighted);

@@ -109,6 +109,8 @@ FitResult fit_ladder(const Measurement& measurement, const FitOptions& options) 
     bulk.model = "bulk";
     bulk.overlayers.clear();
     bulk.film.substrate = {};
+    bulk.film.spread_nm = {};
+    bulk.film.bandwidth_nm = 0;
     bulk.fit_angle_offset = false;
     Ladder ladder(measurement, options);
     ladder.climb("bulk", bulk);
@@ -123,12 +125,19 @@ FitResult fit_ladder(const Measurement& measurement, const FitOptions& options) 
         film.model = "film";
         film.dispersion.clear();
         film.film = options.film;
+        film.film.spread_nm = {};
         ladder.climb("film", film);
     }
     if (ladder.any() && measurement.angles().size() >= 3) {
         FitOptions tilted = ladder.options_taken();
         tilted.fit_angle_offset = true;
         ladder.climb(tilted.model + " + angle offset", tilted);
+    }
+    if (ladder.any() && ladder.options_taken().model == "film") {
+        FitOptions uneven = ladder.options_taken();
+        uneven.film.spread_nm = {0, true};
+        ladder.climb(uneven.fit_angle_offset ? "film + angle offset + spread" : "film + spread",
+                     uneven);
     }
     return ladder.result();
 }

@@ -29,12 +29,23 @@ struct FitCommandOptions {
     std::string estimator = "psi-delta", model = "bulk", dispersion, lobe;
     std::vector<std::string> overlayers;
     std::string substrate, film_material = "Al2O3-Malitson-o", porosity = "fit";
-    double largest_thickness_nm = 10000;
+    double largest_thickness_nm = 10000, bandwidth_nm = 0;
+    std::string spread, roughness;
     bool angle_offset = false, unweighted = false;
     std::string range;
     std::string lobe_scan, constants;
     std::string name, output;
 };
+
+KnownOrFitted known_or_fitted(const std::string& text, const char* option) {
+    if (text.empty()) return {};
+    if (text == "fit") return {0, true};
+    const auto value = parse_double(text);
+    if (!value || !(*value >= 0)) {
+        user_error("{}: found '{}', expected a length in nm, or fit", option, text);
+    }
+    return {*value, false};
+}
 
 void set_film(const FitCommandOptions& options, FilmModel* film) {
     film->material = find_constants(options.film_material, "--film-material");
@@ -42,6 +53,8 @@ void set_film(const FitCommandOptions& options, FilmModel* film) {
         film->substrate = find_constants(options.substrate, "--substrate");
     }
     film->largest_thickness_nm = options.largest_thickness_nm;
+    film->bandwidth_nm = options.bandwidth_nm;
+    film->spread_nm = known_or_fitted(options.spread, "--spread");
     if (options.porosity == "fit") return;
     const auto porosity = parse_double(options.porosity);
     if (!porosity) {
@@ -81,6 +94,7 @@ FitOptions make_fit_options(const FitCommandOptions& options, const CommonOption
         fit.overlayers.push_back(find_layer(layer, "--overlayer"));
     }
     set_film(options, &fit.film);
+    fit.roughness_nm = known_or_fitted(options.roughness, "--roughness");
     set_range(options.range, &fit);
     return fit;
 }
@@ -138,7 +152,8 @@ void check_combination(const FitCommandOptions& options, const OptionSet& given)
         user_error("found --constants without --lobe-scan: there is nothing to fit");
     }
     if (options.model == "film" || options.model == "auto") return;
-    for (const char* option : {"--film-material", "--porosity", "--max-thickness"}) {
+    for (const char* option :
+         {"--film-material", "--porosity", "--max-thickness", "--spread", "--bandwidth"}) {
         if (given.given(option)) user_error("found {}, which belongs to --model film", option);
     }
 }
@@ -220,8 +235,14 @@ Command fit_command() {
         "fits the thickness of a film and its porosity, as a Bruggeman mixture of --film-material "
         "with void, on the known --substrate, all wavelengths together; the fringes of cos 2Psi "
         "give its starts, and the next best thickness is reported.\n\n"
+        "A thick film is rarely even, and a spectrometer's slit sees more than one wavelength: "
+        "--spread and --bandwidth average the intensities over a Gaussian of thicknesses and over "
+        "the slit, without which washed-out fringes are fitted with a wrong porosity. --roughness "
+        "puts a layer of half void, half what lies below it on the film, or, of known thickness, "
+        "on what is fitted otherwise.\n\n"
         "The model auto climbs a ladder: bulk, overlayer where one is given, film where a "
-        "substrate is, an angle offset from three angles on. A rung is taken only where the "
+        "substrate is, an angle offset from three angles on, a spread of the film's thickness. A "
+        "rung is taken only where the "
         "Bayesian information criterion falls by more than 10 and the reduced chi-square moves "
         "towards 1; the ladder is printed.\n\n"
         "--dispersion lets n and k follow a formula over all wavelengths, of the models bulk and "
@@ -264,6 +285,12 @@ Command fit_command() {
         options.option("--porosity", values->porosity, "of a fitted film, 0 to 0.95; or fit");
         options.option("--max-thickness", values->largest_thickness_nm,
                        "of a fitted film, in nm: where the search ends");
+        options.option("--spread", values->spread,
+                       "of a film's thickness over the beam, in nm; or fit");
+        options.option("--bandwidth", values->bandwidth_nm,
+                       "of the spectrometer, full width at half maximum in nm, for a film");
+        options.option("--roughness", values->roughness,
+                       "thickness in nm of a layer of half void; fit on a film");
         options.flag("--angle-offset", values->angle_offset,
                      "fit a common error of the angles of incidence");
         options.option("--range", values->range, "A:B: only wavelengths from A to B nm");

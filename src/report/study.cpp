@@ -13,6 +13,7 @@
 #include "device/ellipsometer_simulation.h"
 #include "fitter/fit.h"
 #include "fitter/fitted_material.h"
+#include "fitter/literature.h"
 #include "image/difference.h"
 #include "image/image.h"
 #include "image/sheet.h"
@@ -175,16 +176,9 @@ class Study {
     }
 
     void compare_constants(StudyMetal* metal) const {
-        const OpticalConstants& fitted = metal->fitted;
-        double dn2 = 0, dk2 = 0;
-        for (size_t i = 0; i < fitted.n.size(); ++i) {
-            const Index there = metal->literature.at(fitted.wavelength_nm[i]);
-            dn2 += std::pow(fitted.n[i] - there.n, 2);
-            dk2 += std::pow(fitted.k[i] - there.k, 2);
-        }
-        const double count = static_cast<double>(fitted.n.size());
-        metal->rms_dn = std::sqrt(dn2 / count);
-        metal->rms_dk = std::sqrt(dk2 / count);
+        const ConstantsDistance distance = constants_distance(metal->fitted, metal->literature);
+        metal->rms_dn = distance.rms_dn;
+        metal->rms_dk = distance.rms_dk;
     }
 
     Image picture_of(const Material& material, const std::string& file) {

@@ -1,0 +1,107 @@
+#include "fitter/model_curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fitter/film_average.h"
+#include "materials/measurement_noise.h"
+#include "materials/surface.h"
+
+namespace drude {
+
+namespace {
+
+constexpr double degree = pi / 180;
+
+double angle_offset_deg(const FitResult& fit) {
+    for (const FittedParameter& parameter : fit.common) {
+        if (parameter.name == "angle offset" && parameter.identifiable) return parameter.value;
+    }
+    return 0;
+}
+
+const FittedPoint* point_at(const FitResult& fit, double wavelength_nm) {
+    const auto found = std::lower_bound(
+        fit.points.begin(), fit.points.end(), wavelength_nm,
+        [](const FittedPoint& point, double nm) { return point.wavelength_nm < nm; });
+    const bool there =
+        found != fit.points.end() && found->wavelength_nm == wavelength_nm && found->identifiable;
+    return there ? &*found : nullptr;
+}
+
+Reflection<double> reflection(const FitResult& fit, const FittedPoint& point, double wavelength_nm,
+                              double thicker_nm, double cos_theta) {
+    std::vector<ThinFilm<double>> films;
+    for (const FilmLayer& layer : fit.layers) {
+        const Index index = layer.constants.at(wavelength_nm);
+        films.push_back({{index.n, index.k}, layer.thickness_nm});
+    }
+    ComplexIndex<double> below{point.n, point.k};
+    if (!fit.substrate.wavelength_nm.empty()) {
+        const Index index = fit.substrate.at(wavelength_nm);
+        below = {index.n, index.k};
+        // The film is the last of the layers: roughness lies above it.
+        films.back().thickness = std::max(films.back().thickness + thicker_nm, 0.0);
+    }
+    return reflect(films.data(), static_cast<int>(films.size()), below, cos_theta, wavelength_nm);
+}
+
+// Over the slit and the thicknesses of a film.
+Reflection<double> averaged(const FitResult& fit, const FittedPoint& point, double cos_theta) {
+    const GaussianNodes even{{0}, {1}}, fine = gaussian_nodes(largest_phase_spread);
+    const GaussianNodes& slit = fit.bandwidth_nm > 0 ? fine : even;
+    const GaussianNodes& spread = fit.thickness_spread_nm > 0 ? fine : even;
+    Reflection<double> sum{0, 0, 0, 0};
+    for (size_t i = 0; i < slit.x.size(); ++i) {
+        const double nm = point.wavelength_nm + gaussian_sigma(fit.bandwidth_nm) * slit.x[i];
+        for (size_t j = 0; j < spread.x.size(); ++j) {
+            const Reflection<double> r =
+                reflection(fit, point, nm, fit.thickness_spread_nm * spread.x[j], cos_theta);
+            const double weight = slit.weight[i] * spread.weight[j];
+            sum.Rs += weight * r.Rs;
+            sum.Rp += weight * r.Rp;
+            sum.C += weight * r.C;
+            sum.S += weight * r.S;
+        }
+    }
+    return sum;
+}
+
+}  // namespace
+
+Measurement model_curve(const FitResult& fit, const Measurement& measurement) {
+    Measurement curve;
+    curve.file = measurement.file;
+    const double offset_deg = angle_offset_deg(fit);
+    for (MeasurementRow row : measurement.rows) {
+        const FittedPoint* point = point_at(fit, row.wavelength_nm);
+        if (!point) continue;
+        const double cos_theta = std::cos((row.angle_deg + offset_deg) * degree);
+        const Reflection<double> r = averaged(fit, *point, cos_theta);
+        if (!has_angles(r)) continue;
+        row.psi_deg = psi(r) / degree;
+        row.delta_deg = delta(r) / degree;
+        row.depolarization = -1;
+        add_noise(&row, 0, 0);  // into the windows of both angles
+        curve.rows.push_back(row);
+    }
+    return curve;
+}
+
+FitOptions options_taken(const FitOptions& options, const FitResult& fit) {
+    FitOptions taken = options;
+    if (options.model != "auto") return taken;
+    taken.model = fit.model;
+    if (fit.model != "overlayer") taken.overlayers.clear();
+    if (fit.model != "film") taken.film.substrate = {};
+    const auto has = [&](const char* name) {
+        return std::any_of(fit.common.begin(), fit.common.end(),
+                           [&](const FittedParameter& p) { return p.name == name; });
+    };
+    taken.dispersion = fit.dispersion;
+    taken.fit_angle_offset = has("angle offset");
+    taken.film.spread_nm.fitted = has("thickness spread");
+    return taken;
+}
+
+}  // namespace drude
