@@ -18,7 +18,7 @@ namespace drude {
 
 namespace {
 
-constexpr size_t starts_refined = 8;
+constexpr size_t starts_refined = 8, averaged_starts = 3;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 void set_common(const FilmSolution& solution, const FreeFilmParameters& free,
@@ -65,7 +65,8 @@ void set_points(const FilmProblem& problem, const FilmSolution& solution, double
     }
 }
 
-void set_layer(const FilmSolution& solution, const FitOptions& options, FitResult* result) {
+void set_layer(const FilmProblem& problem, const FilmSolution& solution, const FitOptions& options,
+               FitResult* result) {
     FilmLayer layer;
     layer.thickness_nm = solution.values[0];
     OpticalConstants& constants = layer.constants;
@@ -77,12 +78,26 @@ void set_layer(const FilmSolution& solution, const FitOptions& options, FitResul
     if (!options.film.material.citation.empty()) {
         constants.citation += "; " + options.film.material.citation;
     }
-    for (const FittedPoint& point : result->points) {
-        constants.wavelength_nm.push_back(point.wavelength_nm);
-        constants.n.push_back(point.n);
-        constants.k.push_back(point.k);
-        constants.sigma_n.push_back(point.sigma_n);
-        constants.sigma_k.push_back(point.sigma_k);
+    const auto add = [&](double nm, const Index& dense, const FittedPoint& nearest) {
+        const auto index = film_index(dense, solution.values[1]);
+        constants.wavelength_nm.push_back(nm);
+        constants.n.push_back(index.n);
+        constants.k.push_back(index.k);
+        constants.sigma_n.push_back(nearest.sigma_n);
+        constants.sigma_k.push_back(nearest.sigma_k);
+    };
+    // As far as the slit reaches.
+    const BandNode& first = problem.bands.front().front();
+    const BandNode& last = problem.bands.back().back();
+    const auto& points = result->points;
+    if (first.wavelength_nm < points.front().wavelength_nm) {
+        add(first.wavelength_nm, first.material, points.front());
+    }
+    for (size_t i = 0; i < points.size(); ++i) {
+        add(points[i].wavelength_nm, problem.centre(i).material, points[i]);
+    }
+    if (last.wavelength_nm > points.back().wavelength_nm) {
+        add(last.wavelength_nm, last.material, points.back());
     }
     if (solution.values[4] > 0) {
         result->layers.push_back(roughness_layer(constants, solution.values[4]));
@@ -146,11 +161,47 @@ void warn(FitResult* result, const FitOptions& options) {
     }
 }
 
+// From every start, best first.
+std::vector<FilmSolution> solve_all(const FilmProblem& problem,
+                                    const std::vector<FilmValues>& starts,
+                                    const FreeFilmParameters& free, const FitOptions& options) {
+    const FilmRange range = film_range(problem, options);
+    std::vector<FilmSolution> solutions(starts.size());
+    parallel_for(starts.size(), options.threads,
+                 [&](size_t i) { solutions[i] = solve_film(problem, starts[i], free, range); });
+    std::stable_sort(solutions.begin(), solutions.end(),
+                     [](const FilmSolution& a, const FilmSolution& b) {
+                         if (a.converged != b.converged) return a.converged;
+                         return a.chi2 < b.chi2;
+                     });
+    return solutions;
+}
+
+// An average costs a hundred reflections a datum: only the starts that do best without it are worth
+// it, and the slit is divided as finely as films of their thickness ask for.
+FilmProblem prepare_average(const Measurement& measurement, const FilmProblem& coherent,
+                            const FitOptions& options, std::vector<FilmValues>* starts) {
+    FreeFilmParameters free = free_film_parameters(options);
+    free[3] = free[4] = false;
+    const std::vector<FilmSolution> even = solve_all(coherent, *starts, free, options);
+    FitOptions as_thick = options;
+    as_thick.film.largest_thickness_nm = 1;
+    starts->clear();
+    for (size_t i = 0; i < std::min(averaged_starts, even.size()); ++i) {
+        const FilmValues& from = even[i].values;
+        starts->push_back(film_start({from[0], from[1], 0}, coherent, options));
+        as_thick.film.largest_thickness_nm =
+            std::max(as_thick.film.largest_thickness_nm, 1.2 * from[0]);
+    }
+    return make_film_problem(measurement, as_thick);
+}
+
 }  // namespace
 
 FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
     const FilmProblem coherent = make_coherent_film_problem(measurement, options);
-    const FilmProblem problem = make_film_problem(measurement, options);
+    const bool averaged = options.film.bandwidth_nm > 0 || options.film.spread_nm.given();
+    FilmProblem problem = averaged ? coherent : make_film_problem(measurement, options);
     const FreeFilmParameters free = free_film_parameters(options);
     const FilmRange range = film_range(problem, options);
     FitResult result;
@@ -173,15 +224,10 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
     }
     const std::vector<FilmStart> starts = search_film(
         coherent, porosities, options.film.largest_thickness_nm, starts_refined, options.threads);
-    std::vector<FilmSolution> solutions(starts.size());
-    parallel_for(starts.size(), options.threads, [&](size_t i) {
-        solutions[i] = solve_film(problem, film_start(starts[i], problem, options), free, range);
-    });
-    std::stable_sort(solutions.begin(), solutions.end(),
-                     [](const FilmSolution& a, const FilmSolution& b) {
-                         if (a.converged != b.converged) return a.converged;
-                         return a.chi2 < b.chi2;
-                     });
+    std::vector<FilmValues> values;
+    for (const FilmStart& start : starts) values.push_back(film_start(start, problem, options));
+    if (averaged) problem = prepare_average(measurement, coherent, options, &values);
+    const std::vector<FilmSolution> solutions = solve_all(problem, values, free, options);
     if (solutions.empty() || !solutions.front().converged) {
         throw Error(Cause::answer_is_no,
                     fmt::format("no fit: least squares converged from none of {} starts",
@@ -204,7 +250,7 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
         options.unweighted && result.dof() > 0 ? std::sqrt(result.chi2_reduced()) : 1;
     set_common(best, free, known, scale, range, &result);
     set_points(problem, best, free[1] ? known.sigma[1] * scale : 0, residuals, &result);
-    set_layer(best, options, &result);
+    set_layer(problem, best, options, &result);
     result.thickness_spread_nm = best.values[3];
     result.bandwidth_nm = options.film.bandwidth_nm;
     set_rival(solutions, &result);

@@ -17,8 +17,10 @@ struct BandNode {
     Index substrate, material;
 };
 
-// A film may be uneven, rough and seen through a slit; what is averaged are the intensities, so
-// that the light is partly depolarised and Psi and Delta are those of its polarised part.
+// A film may be uneven, rough and seen through a slit. What is averaged are the intensities, so
+// that the light is partly depolarised; Psi and Delta are then those that an ellipsometer with a
+// turning polariser and a retarder reads: tan^2 Psi = Rp/Rs, and Delta the phase of the mean of rp
+// conj(rs).
 struct FilmProblem {
     std::vector<WavelengthData> groups;
     std::vector<std::vector<BandNode>> bands;    // of every group; one node for a narrow slit
@@ -40,6 +42,11 @@ struct FilmProblem {
         return count;
     }
 };
+
+// Does a datum take more than one reflection?
+inline bool is_averaged(const FilmProblem& problem) {
+    return problem.spread_nodes.size() > 1 || problem.bands.front().size() > 1;
+}
 
 // The parameters: lengths in nm, the offset of the angles of incidence in radians. `spread` is the
 // standard deviation of the thickness over the beam (Gaussian), `roughness` the thickness of the
@@ -77,6 +84,7 @@ Reflection<T> film_reflection(const FilmProblem& problem, const BandNode& node,
 template <class T>
 Reflection<T> average_reflection(const FilmProblem& problem, size_t wavelength,
                                  const FilmParameters<T>& p, const T& cos_theta) {
+    using std::sqrt;
     Reflection<T> sum{T(0.0), T(0.0), T(0.0), T(0.0)};
     for (const BandNode& node : problem.bands[wavelength]) {
         const ComplexIndex<T> index = film_index(node.material, p.porosity);
@@ -92,6 +100,14 @@ Reflection<T> average_reflection(const FilmProblem& problem, size_t wavelength,
             sum.C = sum.C + weight * r.C;
             sum.S = sum.S + weight * r.S;
         }
+    }
+    if (!is_averaged(problem)) return sum;
+    // Psi and Delta of pure light with the same two angles.
+    const T length2 = sum.C * sum.C + sum.S * sum.S;
+    if (length2 > T(1e-30)) {
+        const T scale = sqrt(sum.Rs * sum.Rp / length2);
+        sum.C = sum.C * scale;
+        sum.S = sum.S * scale;
     }
     return sum;
 }

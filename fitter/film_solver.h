@@ -35,7 +35,7 @@ struct FilmSolution {
 
 // The data of the options' range with the known constants at their wavelengths: a film that is
 // even, smooth and seen through a narrow slit, as the search for starts takes it; and with all that
-// the options let be averaged.
+// the options let be averaged, for films up to their largest thickness.
 FilmProblem make_coherent_film_problem(const Measurement& measurement, const FitOptions& options);
 FilmProblem make_film_problem(const Measurement& measurement, const FitOptions& options);
 

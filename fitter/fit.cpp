@@ -100,7 +100,7 @@ void check_roughness(const FitOptions& options) {
             "the estimator inversion solves a bare, smooth surface only, found a roughness; "
             "expected psi-delta or rho2");
     }
-    if (roughness.fitted && options.model != "film") {
+    if (roughness.fitted && options.model != "film" && options.model != "auto") {
         throw Error(Cause::answer_is_no,
                     "a rough layer on unknown n and k cannot be told from other n and k: give its "
                     "thickness (--roughness 3), or fit it on a film of known materials");

@@ -15,7 +15,7 @@ double bayesian_criterion(const FitResult& fit, bool unweighted);
 
 // The model "auto" of fit_measurement(): bulk; below `overlayers`, where they are given; a film of
 // unknown thickness, where a substrate is given; an offset of the angles of incidence on the best
-// of them, from three angles on; and a spread of the thickness on a film that was taken. A rung is
+// of them, from three angles on; and a spread of the film's thickness. A rung is
 // taken where the criterion falls by more than ladder_bic_gain and the reduced chi-square moves
 // towards 1, or is there within its scatter. Every rung is in the result's `ladder`, with what
 // spoke against it. Throws what the first rung throws where no rung fits.
