@@ -1,0 +1,188 @@
+#include "cli/fit_statistics_output.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/numbers.h"
+#include "fitter/robust_fit.h"
+
+namespace drude {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+const char* chosen_by(LiteratureComparison::Choice choice) {
+    switch (choice) {
+        case LiteratureComparison::Choice::asked_for:
+            return "option";
+        case LiteratureComparison::Choice::sample_header:
+            return "sample";
+        case LiteratureComparison::Choice::nearest:
+            break;
+    }
+    return "nearest";
+}
+
+ordered_json literature_json(const LiteratureComparison& literature) {
+    ordered_json sets = ordered_json::array();
+    for (const LiteratureSet& set : literature.sets) {
+        sets.push_back({{"name", set.name},
+                        {"kind", set.kind},
+                        {"rms_dn", set.distance.rms_dn},
+                        {"rms_dk", set.distance.rms_dk},
+                        {"wavelengths", set.distance.wavelengths}});
+    }
+    const LiteratureEnvelope& envelope = literature.envelope;
+    ordered_json document = {{"material", literature.material},
+                             {"chosen_by", chosen_by(literature.choice)}};
+    document["nearest"] =
+        literature.sets.empty() ? ordered_json(nullptr) : ordered_json(literature.nearest());
+    document["sets"] = std::move(sets);
+    document["envelope"] = {{"wavelengths_nm", envelope.wavelength_nm},
+                            {"n_low", envelope.n_low},
+                            {"n_high", envelope.n_high},
+                            {"k_low", envelope.k_low},
+                            {"k_high", envelope.k_high},
+                            {"sets", envelope.sets}};
+    return document;
+}
+
+ordered_json scatter_json(const Scatter& scatter) {
+    return {{"draws", scatter.draws},
+            {"mean", scatter.mean},
+            {"sigma", scatter.sigma},
+            {"quantiles", scatter.quantiles}};
+}
+
+ordered_json bootstrap_json(const FitReport& report) {
+    const BootstrapResult& result = *report.bootstrap;
+    ordered_json parameters = ordered_json::array(), points = ordered_json::array();
+    for (size_t i = 0; i < result.common.size(); ++i) {
+        ordered_json one = {{"name", report.fit.common[i].name},
+                            {"unit", report.fit.common[i].unit}};
+        one.update(scatter_json(result.common[i]));
+        parameters.push_back(std::move(one));
+    }
+    for (const BootstrapPoint& point : result.points) {
+        points.push_back({{"wavelength_nm", point.wavelength_nm},
+                          {"n", scatter_json(point.n)},
+                          {"k", scatter_json(point.k)}});
+    }
+    return {{"draws", result.draws},
+            {"failures", result.failures},
+            {"seed", result.seed},
+            {"quantiles", bootstrap_quantiles},
+            {"parameters", std::move(parameters)},
+            {"points", std::move(points)}};
+}
+
+ordered_json profile_json(const ProfileResult& result) {
+    ordered_json parameters = ordered_json::array();
+    for (const ProfiledParameter& p : result.parameters) {
+        ordered_json intervals = ordered_json::array();
+        for (size_t i = 0; i < profile_rises.size(); ++i) {
+            intervals.push_back({{"rise", profile_rises[i]},
+                                 {"lower", p.intervals[i].lower},
+                                 {"upper", p.intervals[i].upper},
+                                 {"lower_open", std::isnan(p.intervals[i].lower)},
+                                 {"upper_open", std::isnan(p.intervals[i].upper)}});
+        }
+        ordered_json one = {{"name", p.name}, {"unit", p.unit}};
+        one["wavelength_nm"] =
+            p.wavelength_nm > 0 ? ordered_json(p.wavelength_nm) : ordered_json(nullptr);
+        one["value"] = p.value;
+        one["sigma"] = p.sigma;
+        one["intervals"] = std::move(intervals);
+        parameters.push_back(std::move(one));
+    }
+    return parameters;
+}
+
+void print_literature(const LiteratureComparison& literature) {
+    if (literature.sets.empty()) {
+        fmt::print("no published set{} covers the fitted wavelengths\n",
+                   literature.material.empty() ? "" : " of " + literature.material);
+        return;
+    }
+    switch (literature.choice) {
+        case LiteratureComparison::Choice::asked_for:
+            fmt::print("published sets of {}, nearest first\n", literature.material);
+            break;
+        case LiteratureComparison::Choice::sample_header:
+            fmt::print("published sets of {}, which the sample is called, nearest first\n",
+                       literature.material);
+            break;
+        case LiteratureComparison::Choice::nearest:
+            fmt::print("nearest published: {} (arithmetic, no identification of the sample)\n",
+                       literature.nearest());
+            break;
+    }
+    for (const LiteratureSet& set : literature.sets) {
+        fmt::print("  {:<24}rms dn {:.4f}  rms dk {:.4f}{}\n", set.name, set.distance.rms_dn,
+                   set.distance.rms_dk,
+                   set.distance.wavelengths == literature.wavelengths
+                       ? ""
+                       : fmt::format("  at {} of {} wavelengths", set.distance.wavelengths,
+                                     literature.wavelengths));
+    }
+}
+
+void print_bootstrap(const FitReport& report) {
+    const BootstrapResult& result = *report.bootstrap;
+    fmt::print("bootstrap: {} draws with seed {}, {} refused\n", result.draws, result.seed,
+               result.failures);
+    fmt::print("  {:<18}{:>10}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", "nm", "+-", "2.5 %", "16 %",
+               "84 %", "97.5 %");
+    const auto line = [](const std::string& name, const std::string& nm, const Scatter& s) {
+        fmt::print("  {:<18}{:>10}{:>12.3g}{:>12.6g}{:>12.6g}{:>12.6g}{:>12.6g}\n", name, nm,
+                   s.sigma, s.quantiles[0], s.quantiles[1], s.quantiles[2], s.quantiles[3]);
+    };
+    for (size_t i = 0; i < result.common.size(); ++i) {
+        line(report.fit.common[i].name, "", result.common[i]);
+    }
+    for (const BootstrapPoint& point : result.points) {
+        const std::string nm = format_double(point.wavelength_nm);
+        line("n", nm, point.n);
+        line("k", nm, point.k);
+    }
+}
+
+void print_profile(const ProfileResult& result) {
+    fmt::print("profile likelihood: where chi-square rises by 1 and by 3.84\n");
+    fmt::print("  {:<18}{:>10}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", "nm", "value", "-3.84", "-1",
+               "+1", "+3.84");
+    const auto end = [](double value) {
+        return std::isnan(value) ? std::string("open") : fmt::format("{:.6g}", value);
+    };
+    for (const ProfiledParameter& p : result.parameters) {
+        fmt::print("  {:<18}{:>10}{:>12.6g}{:>12}{:>12}{:>12}{:>12}\n", p.name,
+                   p.wavelength_nm > 0 ? format_double(p.wavelength_nm) : "", p.value,
+                   end(p.intervals[1].lower), end(p.intervals[0].lower), end(p.intervals[0].upper),
+                   end(p.intervals[1].upper));
+    }
+}
+
+}  // namespace
+
+void add_statistics(const FitReport& report, ordered_json* document) {
+    if (!report.fit.robust.empty()) {
+        (*document)["robust"] = {{"loss", report.fit.robust},
+                                 {"constant", robust_constant(report.fit.robust)},
+                                 {"rows_down_weighted", report.fit.rows_down_weighted}};
+    }
+    (*document)["literature"] =
+        report.literature ? literature_json(*report.literature) : ordered_json(nullptr);
+    if (report.bootstrap) (*document)["bootstrap"] = bootstrap_json(report);
+    if (report.profile) (*document)["profile"] = profile_json(*report.profile);
+}
+
+void print_statistics(const FitReport& report) {
+    if (report.literature) print_literature(*report.literature);
+    if (report.profile) print_profile(*report.profile);
+    if (report.bootstrap) print_bootstrap(report);
+}
+
+}  // namespace drude
