@@ -205,7 +205,7 @@ void print_fit_text(const FitReport& report, bool with_table) {
         fmt::print("reduced chi-square {:.4f} with {} degrees of freedom (1 +- {:.2g} expected)\n",
                    fit.chi2_reduced(), fit.dof(), std::sqrt(2.0 / fit.dof()));
     }
-    print_statistics(report);
+    print_statistics(report, with_table);
 }
 
 void print_lobe_json(const LobeFitResult& lobes, const Material& material,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -103,8 +104,10 @@ ordered_json profile_json(const ProfileResult& result) {
 
 void print_literature(const LiteratureComparison& literature) {
     if (literature.sets.empty()) {
-        fmt::print("no published set{} covers the fitted wavelengths\n",
-                   literature.material.empty() ? "" : " of " + literature.material);
+        if (!literature.material.empty()) {
+            fmt::print("no published set of {} covers the fitted wavelengths\n",
+                       literature.material);
+        }
         return;
     }
     switch (literature.choice) {
@@ -130,10 +133,38 @@ void print_literature(const LiteratureComparison& literature) {
     }
 }
 
-void print_bootstrap(const FitReport& report) {
+// Middle value of the ratios of the draws' sigmas to the fit's.
+double median_ratio(const BootstrapResult& result, const FitResult& fit,
+                    Scatter BootstrapPoint::*of, double FittedPoint::*sigma) {
+    std::vector<double> ratios;
+    size_t i = 0;
+    for (const FittedPoint& point : fit.points) {
+        if (!point.identifiable || i == result.points.size()) continue;
+        const double ratio = (result.points[i++].*of).sigma / (point.*sigma);
+        if (std::isfinite(ratio)) ratios.push_back(ratio);
+    }
+    if (ratios.empty()) return std::nan("");
+    std::sort(ratios.begin(), ratios.end());
+    return ratios[ratios.size() / 2];
+}
+
+void print_bootstrap(const FitReport& report, bool every_wavelength) {
     const BootstrapResult& result = *report.bootstrap;
     fmt::print("bootstrap: {} draws with seed {}, {} refused\n", result.draws, result.seed,
                result.failures);
+    if (!every_wavelength && !result.points.empty()) {
+        const double n =
+            median_ratio(result, report.fit, &BootstrapPoint::n, &FittedPoint::sigma_n);
+        const double k =
+            median_ratio(result, report.fit, &BootstrapPoint::k, &FittedPoint::sigma_k);
+        if (std::isfinite(n) && std::isfinite(k)) {
+            fmt::print(
+                "  scatter over standard deviation of the fit, median over wavelengths: n "
+                "{:.3f}, k {:.3f}\n",
+                n, k);
+        }
+        if (result.common.empty()) return;
+    }
     fmt::print("  {:<18}{:>10}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", "nm", "+-", "2.5 %", "16 %",
                "84 %", "97.5 %");
     const auto line = [](const std::string& name, const std::string& nm, const Scatter& s) {
@@ -143,6 +174,7 @@ void print_bootstrap(const FitReport& report) {
     for (size_t i = 0; i < result.common.size(); ++i) {
         line(report.fit.common[i].name, "", result.common[i]);
     }
+    if (!every_wavelength) return;
     for (const BootstrapPoint& point : result.points) {
         const std::string nm = format_double(point.wavelength_nm);
         line("n", nm, point.n);
@@ -150,18 +182,33 @@ void print_bootstrap(const FitReport& report) {
     }
 }
 
-void print_profile(const ProfileResult& result) {
+// Of hundreds of wavelengths only where the table of them is asked for.
+void print_profile(const ProfileResult& result, bool every_wavelength) {
+    constexpr size_t few = 24;
+    const bool all = every_wavelength || result.parameters.size() <= few;
     fmt::print("profile likelihood: where chi-square rises by 1 and by 3.84\n");
     fmt::print("  {:<18}{:>10}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", "nm", "value", "-3.84", "-1",
                "+1", "+3.84");
     const auto end = [](double value) {
         return std::isnan(value) ? std::string("open") : fmt::format("{:.6g}", value);
     };
+    size_t open = 0, left_out = 0;
     for (const ProfiledParameter& p : result.parameters) {
+        if (!all && p.wavelength_nm > 0) {
+            ++left_out;
+            for (const ProfileInterval& i : p.intervals) {
+                open += std::isnan(i.lower) || std::isnan(i.upper) ? 1 : 0;
+            }
+            continue;
+        }
         fmt::print("  {:<18}{:>10}{:>12.6g}{:>12}{:>12}{:>12}{:>12}\n", p.name,
                    p.wavelength_nm > 0 ? format_double(p.wavelength_nm) : "", p.value,
                    end(p.intervals[1].lower), end(p.intervals[0].lower), end(p.intervals[0].upper),
                    end(p.intervals[1].upper));
+    }
+    if (left_out > 0) {
+        fmt::print("  n and k: {} profiles, {} intervals open on a side (--json, --html)\n",
+                   left_out, open);
     }
 }
 
@@ -179,10 +226,10 @@ void add_statistics(const FitReport& report, ordered_json* document) {
     if (report.profile) (*document)["profile"] = profile_json(*report.profile);
 }
 
-void print_statistics(const FitReport& report) {
+void print_statistics(const FitReport& report, bool every_wavelength) {
     if (report.literature) print_literature(*report.literature);
-    if (report.profile) print_profile(*report.profile);
-    if (report.bootstrap) print_bootstrap(report);
+    if (report.profile) print_profile(*report.profile, every_wavelength);
+    if (report.bootstrap) print_bootstrap(report, every_wavelength);
 }
 
 }  // namespace drude

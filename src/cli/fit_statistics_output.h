@@ -11,6 +11,7 @@ namespace drude {
 // "bootstrap" and "profile".
 void add_statistics(const FitReport& report, nlohmann::ordered_json* document);
 
-void print_statistics(const FitReport& report);
+// `every_wavelength`: n and k of the bootstrap and the profiles too, not only their summary.
+void print_statistics(const FitReport& report, bool every_wavelength);
 
 }  // namespace drude

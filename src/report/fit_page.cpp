@@ -95,7 +95,7 @@ void show_constants(const FitReport& report, Page* page) {
     page->section("Optical constants", "constants");
     add_figures(constants_figures(report), page);
     const OpticalConstants fitted = fitted_constants(report.fit);
-    constexpr size_t most_rows = 50;
+    constexpr size_t most_rows = 25;
     const size_t step = std::max<size_t>(1, (fitted.n.size() + most_rows - 1) / most_rows);
     PageTable table;
     table.caption = step == 1 ? "Fitted n and k with one standard deviation."
@@ -199,7 +199,12 @@ void show_literature(const FitReport& report, Page* page) {
     const LiteratureComparison& literature = *report.literature;
     page->section("Literature", "literature");
     if (literature.sets.empty()) {
-        page->paragraph("No published set covers any of the fitted wavelengths.");
+        page->paragraph(
+            literature.material.empty()
+                ? "Neither does the sample have the name of a published material, nor are n and k "
+                  "a metal's."
+                : fmt::format("No published set of {} covers any of the fitted wavelengths.",
+                              literature.material));
         return;
     }
     switch (literature.choice) {

@@ -26,6 +26,12 @@ Axis wavelength_axis(const FitReport& report) {
     return axis;
 }
 
+// Long names of samples would run out of the picture.
+std::string titled(const FitReport& report, const std::string& what) {
+    constexpr size_t longest = 28;
+    return report.name.size() > longest ? what : report.name + ", " + what;
+}
+
 bool by_wavelength(const MeasurementRow& a, const MeasurementRow& b) {
     return a.wavelength_nm < b.wavelength_nm;
 }
@@ -62,7 +68,7 @@ void unwrap(std::vector<MeasurementRow>* data, std::vector<MeasurementRow>* mode
 FitFigure angle_figure(const FitReport& report, const Measurement& curve, bool psi) {
     const std::string symbol = psi ? "Ψ" : "Δ";
     Plot plot;
-    plot.title = fmt::format("{}, {}: data and model", report.name, symbol);
+    plot.title = titled(report, symbol + ": data and model");
     plot.description = fmt::format(
         "{} in degrees against wavelength, one colour an angle of incidence: points as measured "
         "with one standard deviation, lines of the fitted model.",
@@ -109,7 +115,7 @@ FitFigure residual_figure(const FitReport& report, const std::vector<RowResidual
     const bool rho2 = report.fit.estimator == "rho2";
     const std::string symbol = rho2 ? "tan²Ψ" : psi ? "Ψ" : "Δ";
     Plot plot;
-    plot.title = fmt::format("{}, residuals of {}", report.name, symbol);
+    plot.title = titled(report, "residuals of " + symbol);
     plot.description = fmt::format(
         "Model minus measurement of {} in standard deviations against wavelength, one colour an "
         "angle of incidence, with a band of two standard deviations.",
@@ -203,7 +209,8 @@ FitFigure constants_figure(const FitReport& report, bool n) {
     points.mark = Mark::points;
     points.x = fitted.wavelength_nm;
     points.y = n ? fitted.n : fitted.k;
-    points.error = n ? fitted.sigma_n : fitted.sigma_k;
+    // The bands say the same where there are any.
+    if (fitted.n.size() < 3) points.error = n ? fitted.sigma_n : fitted.sigma_k;
     points.colour = fit_colour;
     points.width = fitted.n.size() > 150 ? 1.1 : 1.7;
     plot.series.push_back(std::move(points));

@@ -110,6 +110,15 @@ TEST(Literature, TheSampleNamesTheMaterialAndTheUserOverrules) {
     }
 }
 
+TEST(Literature, ADielectricHasNoNearestMetal) {
+    const FitResult fit = fit_of(published_set("Al2O3-Malitson-o"), "400:700:50", -0.3, 0);
+    EXPECT_TRUE(compare_with_literature(fit, "", "").sets.empty());
+    EXPECT_EQ(compare_with_literature(fit, "", "").material, "");
+    EXPECT_EQ(compare_with_literature(fit, "", "Al2O3").nearest(), "Al2O3-Malitson-o");
+    const FitResult steel = fit_of(published_set("steel-Karlsson-ferritic"), "400:700:50", 0, 0);
+    EXPECT_EQ(compare_with_literature(steel, "", "").nearest(), "steel-Karlsson-ferritic");
+}
+
 TEST(Literature, WhatWasNotDeterminedIsNotCompared) {
     FitResult fit = fit_of(published_set("Au-Johnson"), "400:700:100", 0, 0);
     fit.points[1].identifiable = false;
