@@ -37,8 +37,10 @@ ordered_json literature_json(const LiteratureComparison& literature) {
                         {"wavelengths", set.distance.wavelengths}});
     }
     const LiteratureEnvelope& envelope = literature.envelope;
-    ordered_json document = {{"material", literature.material},
-                             {"chosen_by", chosen_by(literature.choice)}};
+    ordered_json document;
+    document["material"] =
+        literature.material.empty() ? ordered_json(nullptr) : ordered_json(literature.material);
+    document["chosen_by"] = chosen_by(literature.choice);
     document["nearest"] =
         literature.sets.empty() ? ordered_json(nullptr) : ordered_json(literature.nearest());
     document["sets"] = std::move(sets);

@@ -168,6 +168,36 @@ void add_bands(const OpticalConstants& fitted, bool n, Plot* plot) {
     }
 }
 
+// The heights to show: all values, and of the bands no more than a few times what is usual, so that
+// one wavelength that is hardly known does not flatten the rest.
+void set_heights(const OpticalConstants& fitted, bool n, Plot* plot) {
+    const std::vector<double>& values = n ? fitted.n : fitted.k;
+    std::vector<double> sigmas = n ? fitted.sigma_n : fitted.sigma_k;
+    if (values.size() < 3) return;
+    const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
+    std::nth_element(sigmas.begin(), middle, sigmas.end());
+    const double widest = 6 * *middle;
+    double low = values[0], high = values[0], band_low = low, band_high = high;
+    for (size_t i = 0; i < values.size(); ++i) {
+        const double wide = 2 * (n ? fitted.sigma_n : fitted.sigma_k)[i];
+        band_low = std::min(band_low, values[i] - wide);
+        band_high = std::max(band_high, values[i] + wide);
+        low = std::min(low, values[i] - std::min(wide, widest));
+        high = std::max(high, values[i] + std::min(wide, widest));
+    }
+    if (band_high - band_low < 1.5 * (high - low)) return;
+    for (const Band& band : plot->bands) {
+        if (band.colour != envelope_colour) continue;
+        for (size_t i = 0; i < band.x.size(); ++i) {
+            // Passing over NaN.
+            low = std::fmin(low, band.low[i]);
+            high = std::fmax(high, band.high[i]);
+        }
+    }
+    plot->y.low = low;
+    plot->y.high = high;
+}
+
 void add_literature(const LiteratureComparison& literature, bool n, Plot* plot) {
     const LiteratureEnvelope& envelope = literature.envelope;
     if (literature.sets.size() > 1) {
@@ -204,6 +234,7 @@ FitFigure constants_figure(const FitReport& report, bool n) {
     plot.y.label = n ? "n" : "k";
     if (report.literature) add_literature(*report.literature, n, &plot);
     add_bands(fitted, n, &plot);
+    set_heights(fitted, n, &plot);
     Series points;
     points.name = "fitted";
     points.mark = Mark::points;
