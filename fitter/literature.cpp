@@ -149,6 +149,8 @@ LiteratureComparison compare_with_literature(const FitResult& fit, const std::st
                 asked, did_you_mean(asked, published_names()));
         }
         if (!same_word(comparison.material, asked)) only_set = asked;
+    } else if (!fit.substrate.wavelength_nm.empty()) {
+        return comparison;
     } else if (const std::string named = material_named(sample); !named.empty()) {
         comparison.choice = LiteratureComparison::Choice::sample_header;
         comparison.material = named;

@@ -50,8 +50,9 @@ OpticalConstants fitted_constants(const FitResult& fit);
 // (either way, letter case free), otherwise that of the set that is nearest in root mean square of
 // n and k among the published metals that cover the most fitted wavelengths. That last choice is
 // arithmetic, not an identification of the sample, and is made for metals only: where the median of
-// k over the wavelengths, of the fit as of the set, exceeds 1. Throws Error (user) with the nearest
-// word where nothing published has the name `asked`.
+// k over the wavelengths, of the fit as of the set, exceeds 1. A fitted film, whose n and k follow
+// from a known material, is compared with what is asked for only. Throws Error (user) with the
+// nearest word where nothing published has the name `asked`.
 LiteratureComparison compare_with_literature(const FitResult& fit, const std::string& sample,
                                              const std::string& asked);
 

@@ -131,6 +131,8 @@ class Tasks {
     std::vector<Task> points(const std::vector<size_t>& chosen,
                              const std::vector<ProfiledParameter>& common) {
         if (fit_.model == "film") return {};
+        // Without the offset's own profile nobody knows how far it follows.
+        if (common.empty() && !fit_.common.empty()) return {};
         if (!common.empty()) tabulate_offset(common.front());
         std::vector<Task> tasks;
         for (const size_t i : chosen) {
@@ -230,10 +232,11 @@ std::vector<ProfiledParameter> run(std::vector<Task> tasks, int threads,
         const ProfiledParameter& p = tasks[i].parameter;
         if (deepest[i] > 0.01) {
             warnings->push_back(fmt::format(
-                "along the profile of {}{} chi-square falls {:.3g} below that of the fit: there is "
-                "a lower minimum, and the intervals are those around the higher one",
+                "no profile of {}{}: along it chi-square falls {:.3g} below that of the fit, which "
+                "is then not at its lowest",
                 p.name, p.wavelength_nm > 0 ? fmt::format(" at {} nm", p.wavelength_nm) : "",
                 deepest[i]));
+            continue;
         }
         parameters.push_back(p);
     }

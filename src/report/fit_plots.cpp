@@ -223,8 +223,7 @@ void add_literature(const LiteratureComparison& literature, bool n, Plot* plot) 
 FitFigure constants_figure(const FitReport& report, bool n) {
     const OpticalConstants fitted = fitted_constants(report.fit);
     Plot plot;
-    plot.title =
-        fmt::format("{}, {}", report.name, n ? "refractive index n" : "extinction coefficient k");
+    plot.title = titled(report, n ? "refractive index n" : "extinction coefficient k");
     plot.description = fmt::format(
         "{} against wavelength: fitted, with bands of one and two standard deviations, over what "
         "is published.",

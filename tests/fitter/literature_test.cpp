@@ -78,7 +78,7 @@ TEST(Literature, OnlyWhatASetCoversIsCompared) {
             EXPECT_EQ(set.distance.wavelengths, 3);
         }
     }
-    // Nothing published begins at 10 nm.
+    // Nothing published begins at 1e-3 nm.
     FitResult nowhere;
     nowhere.points.push_back({});
     nowhere.points[0].wavelength_nm = 1e-3;
@@ -117,6 +117,13 @@ TEST(Literature, ADielectricHasNoNearestMetal) {
     EXPECT_EQ(compare_with_literature(fit, "", "Al2O3").nearest(), "Al2O3-Malitson-o");
     const FitResult steel = fit_of(published_set("steel-Karlsson-ferritic"), "400:700:50", 0, 0);
     EXPECT_EQ(compare_with_literature(steel, "", "").nearest(), "steel-Karlsson-ferritic");
+}
+
+TEST(Literature, AFilmIsNotComparedWithTheMetalBelow) {
+    FitResult fit = fit_of(published_set("Al2O3-Malitson-o"), "400:700:50", 0, 0);
+    fit.substrate = published_set("Al-Rakic");
+    EXPECT_TRUE(compare_with_literature(fit, "Al", "").sets.empty());
+    EXPECT_EQ(compare_with_literature(fit, "Al", "Al2O3").nearest(), "Al2O3-Malitson-o");
 }
 
 TEST(Literature, WhatWasNotDeterminedIsNotCompared) {
