@@ -189,8 +189,13 @@ void print_profile(const ProfileResult& result, bool every_wavelength) {
     constexpr size_t few = 24;
     const bool all = every_wavelength || result.parameters.size() <= few;
     fmt::print("profile likelihood: where chi-square rises by 1 and by 3.84\n");
-    fmt::print("  {:<18}{:>10}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", "nm", "value", "-3.84", "-1",
-               "+1", "+3.84");
+    const bool rows =
+        all || std::any_of(result.parameters.begin(), result.parameters.end(),
+                           [](const ProfiledParameter& p) { return p.wavelength_nm == 0; });
+    if (rows) {
+        fmt::print("  {:<18}{:>10}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", "nm", "value", "-3.84",
+                   "-1", "+1", "+3.84");
+    }
     const auto end = [](double value) {
         return std::isnan(value) ? std::string("open") : fmt::format("{:.6g}", value);
     };

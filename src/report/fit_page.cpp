@@ -210,7 +210,7 @@ void show_literature(const FitReport& report, Page* page) {
     switch (literature.choice) {
         case LiteratureComparison::Choice::nearest:
             page->paragraph(fmt::format(
-                "The nearest of all published sets is one of {}. That is arithmetic, no "
+                "The nearest of the published metals is {}. That is arithmetic, no "
                 "identification of the sample: oxides and roughness move n and k further than many "
                 "metals are apart.",
                 literature.material));

@@ -167,6 +167,23 @@ TEST(Profile, WithAnAngleOffset) {
     }
 }
 
+TEST(Profile, SameBitsForAnyNumberOfThreads) {
+    const Measurement data = simulate_ellipsometer(find_material("Cu-McPeak"), copper_setup());
+    FitOptions options;
+    options.fit_angle_offset = true;
+    options.threads = 1;
+    const FitResult fit = fit_measurement(data, options);
+    const ProfileResult one = profile_likelihood(data, options, fit);
+    options.threads = 5;
+    const ProfileResult five = profile_likelihood(data, options, fit);
+    ASSERT_EQ(one.parameters.size(), 1u + 2 * 11);
+    ASSERT_EQ(five.parameters.size(), one.parameters.size());
+    for (size_t i = 0; i < one.parameters.size(); ++i) {
+        EXPECT_EQ(one.parameters[i].intervals[0].lower, five.parameters[i].intervals[0].lower);
+        EXPECT_EQ(one.parameters[i].intervals[1].upper, five.parameters[i].intervals[1].upper);
+    }
+}
+
 TEST(Profile, OfAFilm) {
     const Measurement data = measured_film(1500, 0.1, 3);
     FitOptions options;
