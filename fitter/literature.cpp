@@ -29,6 +29,28 @@ std::string material_named(const std::string& name) {
     return "";
 }
 
+// Metals hardly let light in; over the visible silver, the least of them, has k above 1.9.
+bool is_metal(std::vector<double> k) {
+    if (k.empty()) return false;
+    const auto middle = k.begin() + static_cast<std::ptrdiff_t>(k.size() / 2);
+    std::nth_element(k.begin(), middle, k.end());
+    return *middle > 1;
+}
+
+// The material of the nearest metal; "" where the fit is none.
+std::string nearest_metal(const OpticalConstants& fitted, const std::vector<LiteratureSet>& sets) {
+    if (!is_metal(fitted.k)) return "";
+    for (const LiteratureSet& named : sets) {
+        const OpticalConstants& set = published_set(named.name);
+        std::vector<double> k;
+        for (const double nm : fitted.wavelength_nm) {
+            if (set.covers(nm, nm)) k.push_back(set.at(nm).k);
+        }
+        if (is_metal(std::move(k))) return set.material;
+    }
+    return "";
+}
+
 bool nearer(const LiteratureSet& a, const LiteratureSet& b) {
     if (a.distance.wavelengths != b.distance.wavelengths) {
         return a.distance.wavelengths > b.distance.wavelengths;
@@ -127,11 +149,13 @@ LiteratureComparison compare_with_literature(const FitResult& fit, const std::st
                 asked, did_you_mean(asked, published_names()));
         }
         if (!same_word(comparison.material, asked)) only_set = asked;
+    } else if (!fit.substrate.wavelength_nm.empty()) {
+        return comparison;
     } else if (const std::string named = material_named(sample); !named.empty()) {
         comparison.choice = LiteratureComparison::Choice::sample_header;
         comparison.material = named;
-    } else if (!sets.empty()) {
-        comparison.material = published_set(sets.front().name).material;
+    } else {
+        comparison.material = nearest_metal(fitted, sets);
     }
     for (const LiteratureSet& set : sets) {
         if (published_set(set.name).material != comparison.material) continue;

@@ -32,7 +32,7 @@ struct LiteratureEnvelope {
 struct LiteratureComparison {
     enum class Choice { asked_for, sample_header, nearest };
 
-    std::string material;  // "Cu"; empty where no published set covers any fitted wavelength
+    std::string material;  // "Cu"; empty where nothing named or near is published
     Choice choice = Choice::nearest;
     // Of that material, those that cover at least one fitted wavelength; nearest first, and those
     // that cover fewer wavelengths than others after all that cover more.
@@ -48,9 +48,11 @@ OpticalConstants fitted_constants(const FitResult& fit);
 
 // `asked`: a material ("Cu") or one set ("Cu-McPeak"); empty: the material that `sample` names
 // (either way, letter case free), otherwise that of the set that is nearest in root mean square of
-// n and k among all published sets that cover the most fitted wavelengths. That last choice is
-// arithmetic, not an identification of the sample. Throws Error (user) with the nearest word where
-// nothing published has the name `asked`.
+// n and k among the published metals that cover the most fitted wavelengths. That last choice is
+// arithmetic, not an identification of the sample, and is made for metals only: where the median of
+// k over the wavelengths, of the fit as of the set, exceeds 1. A fitted film, whose n and k follow
+// from a known material, is compared with what is asked for only. Throws Error (user) with the
+// nearest word where nothing published has the name `asked`.
 LiteratureComparison compare_with_literature(const FitResult& fit, const std::string& sample,
                                              const std::string& asked);
 

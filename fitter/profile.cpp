@@ -42,6 +42,14 @@ void check(const FitOptions& options, const FitResult& fit) {
             "bootstrap takes every model)",
             fit.model);
     }
+    for (const FittedParameter& p : fit.common) {
+        const bool film = p.name == "thickness" || p.name == "porosity";
+        if (p.name == "angle offset" || (film && fit.model == "film")) continue;
+        user_error(
+            "the parameter '{}' of the fit has no profile likelihood (the "
+            "bootstrap takes every model)",
+            p.name);
+    }
     if (options.unweighted && fit.dof() <= 0) {
         user_error("an unweighted fit with as many parameters as data has no scale for a profile");
     }
@@ -126,6 +134,8 @@ class Tasks {
     std::vector<Task> points(const std::vector<size_t>& chosen,
                              const std::vector<ProfiledParameter>& common) {
         if (fit_.model == "film") return {};
+        // Without the offset's own profile nobody knows how far it follows.
+        if (common.empty() && !fit_.common.empty()) return {};
         if (!common.empty()) tabulate_offset(common.front());
         std::vector<Task> tasks;
         for (const size_t i : chosen) {
@@ -207,6 +217,14 @@ std::vector<ProfiledParameter> run(std::vector<Task> tasks, int threads,
     std::vector<double> deepest(tasks.size(), 0);
     parallel_for(tasks.size(), threads, [&](size_t i) {
         Task& task = tasks[i];
+        // Not the function that was minimised, and no interval of its.
+        const double there = task.held(task.parameter.value);
+        if (!(there < task.smallest * 1.001 + 0.01)) {
+            throw Error(Cause::answer_is_no,
+                        fmt::format("no profile likelihood of {}: chi-square is {:.6g} where the "
+                                    "fit has {:.6g}",
+                                    task.parameter.name, there, task.smallest));
+        }
         const Profile profile = profile_of(task.held, task.parameter.value, task.smallest,
                                            task.parameter.sigma, task.lower, task.upper);
         task.parameter.intervals = profile.intervals;
@@ -217,10 +235,11 @@ std::vector<ProfiledParameter> run(std::vector<Task> tasks, int threads,
         const ProfiledParameter& p = tasks[i].parameter;
         if (deepest[i] > 0.01) {
             warnings->push_back(fmt::format(
-                "along the profile of {}{} chi-square falls {:.3g} below that of the fit: there is "
-                "a lower minimum, and the intervals are those around the higher one",
+                "no profile of {}{}: along it chi-square falls {:.3g} below that of the fit, which "
+                "is then not at its lowest",
                 p.name, p.wavelength_nm > 0 ? fmt::format(" at {} nm", p.wavelength_nm) : "",
                 deepest[i]));
+            continue;
         }
         parameters.push_back(p);
     }

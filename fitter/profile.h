@@ -18,7 +18,9 @@ struct ProfiledParameter {
 };
 
 struct ProfileResult {
-    std::vector<ProfiledParameter> parameters;  // the common ones, then n and k by wavelength
+    // The common ones, then n and k by wavelength. One along whose profile chi-square falls below
+    // that of the fit is left out and named in the warnings.
+    std::vector<ProfiledParameter> parameters;
     std::vector<std::string> warnings;
 };
 
