@@ -244,9 +244,10 @@ void warn_about_result(FitResult* result, bool unweighted) {
     const double scatter = 3 * std::sqrt(2.0 / result->dof());
     if (reduced > 1 + scatter) {
         result->warnings.push_back(fmt::format(
-            "reduced chi-square {:.3g}, expected 1 +- {:.2g}: a film, roughness, a wrong angle of "
-            "incidence, or standard deviations stated too small",
-            reduced, scatter));
+            "reduced chi-square {:.3g}, expected 1 +- {:.2g}: {}a film, roughness, a wrong angle "
+            "of incidence, or standard deviations stated too small",
+            reduced, scatter,
+            result->dispersion.empty() ? "" : "a formula that the constants do not follow, "));
     }
 }
 

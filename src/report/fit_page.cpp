@@ -68,7 +68,10 @@ void show_summary(const FitReport& report, Page* page) {
         {"Fitted", fmt::format("{} at {} of {} wavelengths, {:g} to {:g} nm", what_was_fitted(fit),
                                determined, fit.points.size(), fit.points.front().wavelength_nm,
                                fit.points.back().wavelength_nm)},
-        {"Model and estimator", fit.model + ", " + fit.estimator},
+        {"Model and estimator",
+         fmt::format("{}{}, {}", fit.model,
+                     fit.dispersion.empty() ? "" : ", n and k follow " + fit.dispersion,
+                     fit.estimator)},
         {"Agreement", goodness(report)}};
     for (const FittedParameter& p : fit.common) {
         facts.emplace_back(named(p.name, p.unit),
