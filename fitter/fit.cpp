@@ -239,7 +239,10 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
                      [&](size_t i) { result.points[i] = fit_point(groups[i], estimator); });
     }
 
-    for (const FittedPoint& point : result.points) {
+    for (size_t i = 0; i < groups.size(); ++i) {
+        FittedPoint& point = result.points[i];
+        // Unweighted, the standard deviations are in units that only the residuals will tell.
+        if (!options.unweighted) refuse_if_unknown(groups[i], estimator, &point);
         if (!point.identifiable) continue;
         result.chi2 += point.chi2;
         result.data += point.data;
