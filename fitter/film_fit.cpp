@@ -222,8 +222,12 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
     } else {
         for (int i = 0; i <= 9; ++i) porosities.push_back(0.05 * i);
     }
-    const std::vector<FilmStart> starts = search_film(
-        coherent, porosities, options.film.largest_thickness_nm, starts_refined, options.threads);
+    const auto& guess = options.film.start;
+    const std::vector<FilmStart> starts =
+        guess ? std::vector<FilmStart>{{guess->thickness_nm,
+                                        options.film.porosity.value_or(guess->porosity), 0}}
+              : search_film(coherent, porosities, options.film.largest_thickness_nm, starts_refined,
+                            options.threads);
     std::vector<FilmValues> values;
     for (const FilmStart& start : starts) values.push_back(film_start(start, problem, options));
     if (averaged) problem = prepare_average(measurement, coherent, options, &values);

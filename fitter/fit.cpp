@@ -88,6 +88,12 @@ void check_structure(const FitOptions& options) {
     if (!(largest >= 1 && largest <= 1e5)) {
         user_error("found {} nm as the largest thickness to try, expected 1 to 100000", largest);
     }
+    const auto& start = options.film.start;
+    if (start && !(start->thickness_nm >= 0 && start->thickness_nm <= largest &&
+                   start->porosity >= 0 && start->porosity <= 0.95)) {
+        user_error("found a start of {} nm with the porosity {}, expected 0 to {} nm and 0 to 0.95",
+                   start->thickness_nm, start->porosity, largest);
+    }
 }
 
 void check_roughness(const FitOptions& options) {
@@ -309,8 +315,11 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
                      [&](size_t i) { result.points[i] = fit_point(groups[i], estimator); });
     }
 
-    for (const FittedPoint& point : result.points) {
-        if (!point.identifiable || !options.dispersion.empty()) continue;
+    for (size_t i = 0; i < groups.size() && options.dispersion.empty(); ++i) {
+        FittedPoint& point = result.points[i];
+        // Unweighted, the standard deviations are in units that only the residuals will tell.
+        if (!options.unweighted) refuse_if_unknown(groups[i], estimator, &point);
+        if (!point.identifiable) continue;
         result.chi2 += point.chi2;
         result.data += point.data;
         result.parameters += 2;

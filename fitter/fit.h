@@ -24,6 +24,10 @@ struct KnownOrFitted {
     bool given() const { return fitted || value != 0; }
 };
 
+struct FilmGuess {
+    double thickness_nm = 0, porosity = 0;
+};
+
 // What the model "film" knows beforehand: light meets a film of unknown thickness, a Bruggeman
 // mixture of `material` with empty pores, on a known substrate.
 struct FilmModel {
@@ -36,6 +40,9 @@ struct FilmModel {
     KnownOrFitted spread_nm;
     // Of the spectrometer's slit, full width at half maximum of a Gaussian, in nm; in [0, 50].
     double bandwidth_nm = 0;
+    // Where least squares starts, instead of the search: it finds the minimum of this basin only,
+    // which is some per cent of the thickness wide. Within the ranges of the two.
+    std::optional<FilmGuess> start;
 };
 
 struct FitOptions {

@@ -45,7 +45,8 @@ InvertedIndex invert_psi_delta(const AnglePoint& point) {
     const Complex64 one(1, 0), i(0, 1);
     const Complex64 ratio = (one - r) / (one + r);
     const double sin2 = point.sin_theta * point.sin_theta;
-    const Complex64 index = std::sqrt(sin2 * (one + tan_theta * tan_theta * ratio * ratio));
+    Complex64 index = std::sqrt(sin2 * (one + tan_theta * tan_theta * ratio * ratio));
+    if (-index.imag() > index.real()) index = -index;
     // dN/dr, then dr = r (2/sin 2Psi dPsi - i dDelta); the map is analytic in r.
     const Complex64 slope =
         sin2 * tan_theta * tan_theta * ratio / index * (-2.0 / ((one + r) * (one + r)));
@@ -67,9 +68,11 @@ AveragedIndex invert_and_average(const WavelengthData& data) {
     double correlation = 0;
     for (const AnglePoint& point : data.points) {
         const InvertedIndex inverted = invert_psi_delta(point);
-        const bool usable = std::isfinite(inverted.n) && std::isfinite(inverted.k) &&
-                            std::isfinite(inverted.sigma_n) && std::isfinite(inverted.sigma_k) &&
-                            inverted.sigma_n > 0 && inverted.sigma_k > 0;
+        // At Psi = 0 and 90 only one polarisation is reflected and Delta says nothing.
+        const bool usable = std::sin(2 * point.psi) > 1e-9 && std::isfinite(inverted.n) &&
+                            std::isfinite(inverted.k) && std::isfinite(inverted.sigma_n) &&
+                            std::isfinite(inverted.sigma_k) && inverted.sigma_n > 0 &&
+                            inverted.sigma_k > 0;
         if (!usable) continue;
         n.push_back(inverted.n);
         k.push_back(inverted.k);
