@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "fitter/kramers_kronig_spline.h"
 #include "fitter/named_constants.h"
 #include "materials/dispersion.h"
@@ -191,6 +192,14 @@ class Mixture : public DispersionTerm {
     Mixture(const Wavelengths& wavelengths_nm, const std::string& a, const std::string& b) {
         const OpticalConstants first = find_constants(a, "--dispersion bruggeman");
         const OpticalConstants second = find_constants(b, "--dispersion bruggeman");
+        for (const OpticalConstants* constants : {&first, &second}) {
+            const std::string warning =
+                constants->range_warning(wavelengths_nm.front(), wavelengths_nm.back());
+            if (!warning.empty()) {
+                user_error("--dispersion bruggeman: {}; expected constants of every wavelength",
+                           warning);
+            }
+        }
         for (const double nm : wavelengths_nm) {
             a_.push_back(first.at(nm));
             b_.push_back(second.at(nm));

@@ -151,6 +151,8 @@ TEST(Dispersion, UnknownNamesAreRefusedWithTheNearest) {
           "spline:", "bruggeman:Au", "bruggeman:Au,Xx", "4sellmeier", "", "99"}) {
         EXPECT_THROW(DispersionModel(name, wavelengths), Error) << name;
     }
+    // A mixture of what is not known at all wavelengths.
+    EXPECT_THROW(DispersionModel("bruggeman:Au-McPeak,Ag-McPeak", {100, 500}), Error);
     try {
         DispersionModel("drude+2lorenz", wavelengths);
         FAIL();
