@@ -22,6 +22,7 @@ constexpr double largest_offset = 2 * pi / 180;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 using FilmCost = ceres::AutoDiffCostFunction<FilmResiduals, ceres::DYNAMIC, 1, 1, 1>;
+using FixedAngleFilmCost = ceres::AutoDiffCostFunction<FilmResiduals, ceres::DYNAMIC, 1, 1>;
 
 struct FilmSolution {
     double values[3] = {0, 0, 0};  // thickness in nm, porosity, offset in radians
@@ -48,31 +49,38 @@ FilmProblem make_problem(const Measurement& measurement, const FitOptions& optio
     return problem;
 }
 
-FilmSolution refine(const FilmProblem& problem, const FilmStart& start, FreeParameters free,
-                    double largest_nm) {
+const double lower_bounds[] = {0, 0, -largest_offset};
+
+FilmSolution solve(const FilmProblem& problem, const FilmStart& start, FreeParameters free,
+                   double largest_nm, bool bounded) {
     FilmSolution solution;
     double* const values = solution.values;
     values[0] = start.thickness_nm;
     values[1] = start.porosity;
+    std::vector<double*> addresses = {values, values + 1};
+    ceres::CostFunction* cost = nullptr;
+    if (free.offset) {
+        addresses.push_back(values + 2);
+        cost = new FilmCost(new FilmResiduals{&problem}, problem.residual_count());
+    } else {
+        cost = new FixedAngleFilmCost(new FilmResiduals{&problem}, problem.residual_count());
+    }
     ceres::Problem least_squares;
-    least_squares.AddResidualBlock(
-        new FilmCost(new FilmResiduals{&problem}, problem.residual_count()), nullptr, values,
-        values + 1, values + 2);
-    const double lower[] = {0, 0, -largest_offset};
+    least_squares.AddResidualBlock(cost, nullptr, addresses);
     const double upper[] = {largest_nm, largest_porosity, largest_offset};
-    for (int j = 0; j < 3; ++j) {
-        if (free.is_free(j)) {
-            least_squares.SetParameterLowerBound(values + j, 0, lower[j]);
-            least_squares.SetParameterUpperBound(values + j, 0, upper[j]);
-        } else {
+    for (int j = 0; j < static_cast<int>(addresses.size()); ++j) {
+        if (!free.is_free(j)) {
             least_squares.SetParameterBlockConstant(values + j);
+        } else if (bounded) {
+            least_squares.SetParameterLowerBound(values + j, 0, lower_bounds[j]);
+            least_squares.SetParameterUpperBound(values + j, 0, upper[j]);
         }
     }
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
     options.logging_type = ceres::SILENT;
     options.num_threads = 1;
-    options.max_num_iterations = 200;
+    options.max_num_iterations = bounded ? 200 : 50;
     options.function_tolerance = 1e-12;
     options.parameter_tolerance = 1e-12;
     ceres::Solver::Summary summary;
@@ -81,6 +89,19 @@ FilmSolution refine(const FilmProblem& problem, const FilmStart& start, FreePara
     solution.converged =
         summary.termination_type == ceres::CONVERGENCE && std::isfinite(summary.final_cost);
     return solution;
+}
+
+// Bounds cost Ceres a line search and a second Jacobian every step, and few fits meet one: they are
+// set only where a solution without them does not converge or lies outside.
+FilmSolution refine(const FilmProblem& problem, const FilmStart& start, FreeParameters free,
+                    double largest_nm) {
+    const FilmSolution solution = solve(problem, start, free, largest_nm, false);
+    const double upper[] = {largest_nm, largest_porosity, largest_offset};
+    bool inside = solution.converged;
+    for (int j = 0; j < 3; ++j) {
+        inside = inside && solution.values[j] >= lower_bounds[j] && solution.values[j] <= upper[j];
+    }
+    return inside ? solution : solve(problem, start, free, largest_nm, true);
 }
 
 // Row-major residuals x free parameters.

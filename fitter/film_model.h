@@ -57,9 +57,16 @@ bool film_residuals(const FilmProblem& problem, size_t wavelength, const T& thic
     return true;
 }
 
-// Three parameters of one number each, as Ceres differentiates them.
+// Parameters of one number each, as Ceres differentiates them; without the offset at the angles of
+// the data.
 struct FilmResiduals {
     const FilmProblem* problem;
+
+    template <class T>
+    bool operator()(const T* thickness_nm, const T* porosity, T* residuals) const {
+        const T offset(0.0);
+        return (*this)(thickness_nm, porosity, &offset, residuals);
+    }
 
     template <class T>
     bool operator()(const T* thickness_nm, const T* porosity, const T* offset, T* residuals) const {
