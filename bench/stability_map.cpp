@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -78,11 +79,13 @@ std::vector<double> random_angles(Uniform* random) {
 
 struct Counts {
     int truth = 0, equal = 0, elsewhere = 0, refused = 0;
+    double least_chi2 = std::numeric_limits<double>::infinity();  // of those elsewhere
     void add(const Counts& other) {
         truth += other.truth;
         equal += other.equal;
         elsewhere += other.elsewhere;
         refused += other.refused;
+        least_chi2 = std::min(least_chi2, other.least_chi2);
     }
     int all() const { return truth + equal + elsewhere + refused; }
 };
@@ -113,6 +116,7 @@ void run_trial(const Procedure& procedure, const std::vector<double>& angle_set,
         ++counts->equal;
     } else {
         ++counts->elsewhere;  // NaN too, which no fit may report
+        counts->least_chi2 = std::min(counts->least_chi2, point.chi2);
     }
 }
 
@@ -227,15 +231,16 @@ Picture draw(const std::vector<Panel>& panels) {
 }
 
 void print_sums(const std::vector<Panel>& panels) {
-    fmt::print("{:<26}{:<20}{:>9}{:>9}{:>11}{:>9}\n", "procedure", "angles", "truth", "equal",
-               "elsewhere", "refused");
+    fmt::print("{:<26}{:<20}{:>9}{:>9}{:>9}{:>11}{:>18}\n", "procedure", "angles", "truth", "equal",
+               "refused", "elsewhere", "least chi2 there");
     for (const Panel& panel : panels) {
         Counts sum;
         for (const Counts& c : panel.counts) sum.add(c);
         const auto share = [&](int count) { return 100.0 * count / sum.all(); };
-        fmt::print("{:<26}{:<20}{:>8.2f}%{:>8.2f}%{:>10.2f}%{:>8.2f}%\n", panel.procedure->name,
+        fmt::print("{:<26}{:<20}{:>8.2f}%{:>8.2f}%{:>8.2f}%{:>10.2f}%{}\n", panel.procedure->name,
                    angles_name(*panel.angles), share(sum.truth), share(sum.equal),
-                   share(sum.elsewhere), share(sum.refused));
+                   share(sum.refused), share(sum.elsewhere),
+                   sum.elsewhere > 0 ? fmt::format("{:>18.3g}", sum.least_chi2) : "");
     }
 }
 

@@ -142,9 +142,15 @@ bool film_residuals(const FilmProblem& problem, const FilmParameters<T>& p, T* r
     return true;
 }
 
-// As Ceres differentiates them: parameters of one number each. An even, smooth film has three.
+// As Ceres differentiates them: parameters of one number each, no more than are in use.
 struct FilmResiduals {
     const FilmProblem* problem;
+
+    template <class T>
+    bool operator()(const T* thickness, const T* porosity, T* residuals) const {
+        return film_residuals(
+            *problem, FilmParameters<T>{*thickness, *porosity, T(0.0), T(0.0), T(0.0)}, residuals);
+    }
 
     template <class T>
     bool operator()(const T* thickness, const T* porosity, const T* offset, T* residuals) const {
