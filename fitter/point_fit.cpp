@@ -253,7 +253,8 @@ void refuse_if_unknown(const WavelengthData& data, Estimator estimator, FittedPo
                                estimator == Estimator::rho2 ? "Psi = 45 degrees"
                                                             : "Psi = 45 and Delta = 180 degrees"));
     }
-    if (std::hypot(point->sigma_n, point->sigma_k) <= std::hypot(point->n, point->k)) return;
+    const double length = std::hypot(point->n, point->k);
+    if (std::hypot(point->sigma_n, point->sigma_k) <= not_known_at_all * length) return;
     refuse(point, fmt::format("the data do not determine n and k: their standard deviations would "
                               "be {:.2g} and {:.2g}",
                               point->sigma_n, point->sigma_k));
