@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "report/svg_plot.h"
 
@@ -79,6 +81,24 @@ std::string constants_plot(const StudyMetal& metal, ConstantKind kind) {
     plot.id = fmt::format("{}-{}", metal.name, symbol);
     plot.x = wavelength_axis(metal);
     plot.y.label = symbol;
+
+    // The envelope over those sets that cover a wavelength.
+    Band envelope;
+    envelope.name = "literature envelope";
+    envelope.colour = 7;
+    for (const double nm : metal.fitted.wavelength_nm) {
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const OpticalConstants& set : metal.published) {
+            if (!set.covers(nm, nm)) continue;
+            const Index at = set.at(nm);
+            low = std::min(low, n ? at.n : at.k);
+            high = std::max(high, n ? at.n : at.k);
+        }
+        envelope.x.push_back(nm);
+        envelope.low.push_back(low);
+        envelope.high.push_back(high);
+    }
+    plot.bands.push_back(std::move(envelope));
 
     // The literature first, so that the fit lies on top; the pair that is compared in strong lines.
     int colour = 2;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "report/study_report.h"
+#include "report/study_data.h"
 
 namespace drude {
 
@@ -12,7 +12,8 @@ enum class EllipsometricAngle { psi, delta };
 std::string ellipsometry_plot(const StudyMetal& metal, EllipsometricAngle angle);
 
 enum class ConstantKind { n, k };
-// Fitted points with error bars over every published set, within the measured range.
+// Fitted points with error bars over every published set and the envelope of them all, within the
+// measured range.
 std::string constants_plot(const StudyMetal& metal, ConstantKind kind);
 
 }  // namespace drude

@@ -1,0 +1,46 @@
+// The figures that claims about a study rest on.
+#pragma once
+
+#include <string>
+
+#include "report/study_data.h"
+
+namespace drude {
+
+// The metal whose folder has this name, or null.
+const StudyMetal* find_metal(const Study& study, const std::string& folder);
+
+// tan^2 Psi of a measurement against Fresnel's ratio with n, k of `set`, at all wavelengths and
+// angles: root mean square of the relative differences.
+double ratio_deviation(const Measurement& measurement, const OpticalConstants& set);
+
+// The share of the fitted wavelengths at which both n and k lie between the least and the greatest
+// of the published sets that cover them, the sample's own left out, widened by three standard
+// deviations of the fit. NaN where there are no such sets.
+struct EnvelopeShare {
+    double share = 0;
+    int sets = 0;
+};
+EnvelopeShare envelope_share(const StudyMetal& metal);
+
+// Mean of fitted minus literature, over the mean of the literature, and the share of wavelengths at
+// which the fitted lies below.
+struct SignedGap {
+    double relative = 0, below = 0;
+};
+SignedGap signed_gap(const StudyMetal& metal, bool n);
+
+// The largest relative error of the unpolarised reflectance (Rs + Rp)/2 that `fitted` predicts for
+// `sample`, over the wavelengths and angles of `measurement`.
+double reflectance_error(const Material& sample, const Material& fitted,
+                         const Measurement& measurement);
+
+// How much tan^2 Psi of the polarised Torrance-Sparrow model, in the mirror direction, differs from
+// that of the smooth metal, relatively and at most: over the four lobes, beta from 0.05 to 1.15 and
+// the angles of `measurement`, at its first, middle and last wavelength.
+double largest_ratio_change_by_beta(const OpticalConstants& set, const Measurement& measurement);
+
+// Psi at one angle of incidence, in order of wavelength.
+std::vector<double> psi_at(const Measurement& measurement, double angle_deg);
+
+}  // namespace drude
