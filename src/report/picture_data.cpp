@@ -69,14 +69,19 @@ std::vector<size_t> PictureData::Grid::chosen(char kind, int step) const {
 }
 
 size_t PictureData::Grid::bytes(int step, int first_row) const {
-    size_t rows = 0;  // summed over pictures; those of zeros cost nothing
-    for (const Layers& picture : pictures) {
+    // Rows of zeros cost nothing.
+    const auto kept = [&](const Layers& picture) {
+        size_t rows = 0;
         for (size_t row = first_row; row < 4; ++row) {
             const std::vector<uint16_t>& v = picture.values[row];
             rows += std::any_of(v.begin(), v.end(), [](uint16_t h) { return (h & 0x7fffu) != 0; });
         }
-    }
-    return 2 * planes * (rows * chosen(1, step).size() + 4 * chosen(0, step).size());
+        return rows;
+    };
+    size_t rows = 0;
+    for (const Layers& picture : pictures) rows += kept(picture);
+    return 2 * planes *
+           (rows * chosen(1, step).size() + kept(pictures.front()) * chosen(0, step).size());
 }
 
 int PictureData::Grid::fitting_step(size_t budget, int first_row) const {

@@ -19,8 +19,8 @@ namespace drude {
 // Upper bounds of what each kind of layer may weigh before it is deflated.
 struct PictureBudget {
     int side = 512;                 // pixels shown along the longer side
-    size_t stokes_bytes = 3000000;  // S1..S3 of R, G, B
-    size_t spectral_bytes = 3000000;
+    size_t stokes_bytes = 3500000;  // S1..S3 of R, G, B
+    size_t spectral_bytes = 3500000;
 };
 
 class PictureData {

@@ -173,8 +173,9 @@ TEST(PictureData, HoldsEveryPixelOnce) {
 TEST(PictureData, KeepsToItsBudgetBySteps) {
     StudyMetal copper;
     copper.folder = "copper";
-    // 24 bytes of S1 for own pixels and 96 for shared ones at every pixel, a quarter at step 2.
-    PictureData narrow({512, 100, 1000000});
+    // Of S1, three planes of two bytes: 48 for the own pixels of both pictures and 24 for the
+    // shared ones at every pixel, 12 and 6 at every second of every second row.
+    PictureData narrow({512, 71, 1000000});
     narrow.add(copper, small_pair(0));
     const nlohmann::json json = nlohmann::json::parse(narrow.json());
     EXPECT_EQ(json.at("colour").at("first"), 1);
