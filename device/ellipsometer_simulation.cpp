@@ -5,6 +5,7 @@
 #include "base/counter_random.h"
 #include "base/error.h"
 #include "base/numbers.h"
+#include "materials/measurement_noise.h"
 #include "materials/surface.h"
 
 namespace drude {
@@ -12,11 +13,6 @@ namespace drude {
 namespace {
 
 constexpr double degree = pi / 180;
-
-double wrapped(double delta_deg) {
-    const double turned = delta_deg - 360 * std::floor(delta_deg / 360);
-    return turned < 360 ? turned : 0;
-}
 
 void check(const SimulationSetup& setup) {
     if (setup.angles_deg.empty()) user_error("simulate: found no angle of incidence");
@@ -41,14 +37,6 @@ void check(const SimulationSetup& setup) {
                 "to 45",
                 sigma);
         }
-    }
-}
-
-void fold_psi(MeasurementRow* row) {
-    // Two foldings suffice for any noise within the checked range; the loop covers the far tail.
-    while (row->psi_deg < 0 || row->psi_deg > 90) {
-        row->psi_deg = row->psi_deg < 0 ? -row->psi_deg : 180 - row->psi_deg;
-        row->delta_deg += 180;
     }
 }
 
@@ -82,12 +70,11 @@ Measurement simulate_ellipsometer(const Material& material, const SimulationSetu
             MeasurementRow row;
             row.wavelength_nm = wavelength;
             row.angle_deg = angle;
-            row.psi_deg = psi(r) / degree + setup.sigma_psi_deg * noise[0];
-            row.delta_deg = delta(r) / degree + setup.sigma_delta_deg * noise[1];
+            row.psi_deg = psi(r) / degree;
+            row.delta_deg = delta(r) / degree;
             row.sigma_psi_deg = setup.sigma_psi_deg;
             row.sigma_delta_deg = setup.sigma_delta_deg;
-            fold_psi(&row);
-            row.delta_deg = wrapped(row.delta_deg);
+            add_noise(&row, setup.sigma_psi_deg * noise[0], setup.sigma_delta_deg * noise[1]);
             measurement.rows.push_back(row);
         }
     }

@@ -11,14 +11,13 @@
 #include "fitter/film_search.h"
 #include "fitter/fit_data.h"
 #include "fitter/identifiability.h"
+#include "fitter/offset_fit.h"
 
 namespace drude {
 
 namespace {
 
 constexpr size_t starts_refined = 8;
-constexpr double largest_porosity = 0.95;  // beyond, the film is next to nothing
-constexpr double largest_offset = 2 * pi / 180;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 using FilmCost = ceres::AutoDiffCostFunction<FilmResiduals, ceres::DYNAMIC, 1, 1, 1>;
@@ -37,17 +36,6 @@ struct FreeParameters {
     int count() const { return 1 + (porosity ? 1 : 0) + (offset ? 1 : 0); }
 };
 
-FilmProblem make_problem(const Measurement& measurement, const FitOptions& options) {
-    FilmProblem problem;
-    problem.groups = group_by_wavelength(measurement, options);
-    problem.estimator = options.estimator == "rho2" ? Estimator::rho2 : Estimator::psi_delta;
-    for (const WavelengthData& group : problem.groups) {
-        problem.substrate.push_back(options.film.substrate.at(group.wavelength_nm));
-        problem.material.push_back(options.film.material.at(group.wavelength_nm));
-    }
-    return problem;
-}
-
 FilmSolution refine(const FilmProblem& problem, const FilmStart& start, FreeParameters free,
                     double largest_nm) {
     FilmSolution solution;
@@ -58,8 +46,8 @@ FilmSolution refine(const FilmProblem& problem, const FilmStart& start, FreePara
     least_squares.AddResidualBlock(
         new FilmCost(new FilmResiduals{&problem}, problem.residual_count()), nullptr, values,
         values + 1, values + 2);
-    const double lower[] = {0, 0, -largest_offset};
-    const double upper[] = {largest_nm, largest_porosity, largest_offset};
+    const double lower[] = {0, 0, -largest_angle_offset};
+    const double upper[] = {largest_nm, largest_porosity, largest_angle_offset};
     for (int j = 0; j < 3; ++j) {
         if (free.is_free(j)) {
             least_squares.SetParameterLowerBound(values + j, 0, lower[j]);
@@ -112,7 +100,7 @@ void set_common(const FilmSolution& solution, FreeParameters free, const Identif
     const Declared declared[] = {
         {"thickness", "nm", 1, 0, largest_nm},
         {"porosity", "", 1, 0, largest_porosity},
-        {"angle offset", "deg", 180 / pi, -largest_offset, largest_offset}};
+        {"angle offset", "deg", 180 / pi, -largest_angle_offset, largest_angle_offset}};
     size_t column = 0;
     for (int j = 0; j < 3; ++j) {
         if (!free.is_free(j)) continue;
@@ -228,8 +216,19 @@ void warn(FitResult* result, bool unweighted) {
 
 }  // namespace
 
+FilmProblem make_film_problem(const Measurement& measurement, const FitOptions& options) {
+    FilmProblem problem;
+    problem.groups = group_by_wavelength(measurement, options);
+    problem.estimator = options.estimator == "rho2" ? Estimator::rho2 : Estimator::psi_delta;
+    for (const WavelengthData& group : problem.groups) {
+        problem.substrate.push_back(options.film.substrate.at(group.wavelength_nm));
+        problem.material.push_back(options.film.material.at(group.wavelength_nm));
+    }
+    return problem;
+}
+
 FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
-    const FilmProblem problem = make_problem(measurement, options);
+    const FilmProblem problem = make_film_problem(measurement, options);
     const FreeParameters free{!options.film.porosity.has_value(), options.fit_angle_offset};
     FitResult result;
     result.estimator = options.estimator;

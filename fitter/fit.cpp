@@ -11,6 +11,7 @@
 #include "fitter/model_ladder.h"
 #include "fitter/offset_fit.h"
 #include "fitter/point_fit.h"
+#include "fitter/robust_fit.h"
 
 namespace drude {
 
@@ -207,6 +208,7 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
     check_options(options);
     measurement.check();
     check_offset(measurement, options);
+    if (options.robust != "none") return fit_robust(measurement, options);
     if (options.model == "auto") return fit_ladder(measurement, options);
     if (options.model == "film") return fit_film(measurement, options);
     FitResult result;

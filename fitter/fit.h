@@ -44,6 +44,11 @@ struct FitOptions {
     // Every row and both angles count alike, whatever standard deviations the file states; those
     // of the result then come from the scatter of the residuals.
     bool unweighted = false;
+    // What a row far from the model counts: "none" takes squares; huber, cauchy and tukey let it
+    // count less (robust_fit.h). Not with inversion, the model auto, or `unweighted`.
+    std::string robust = "none";
+    // Factors on the squared residuals, one for every row of the measurement; empty: 1 each.
+    std::vector<double> weights;
     // Rows outside are left out; 0 and infinity take all.
     double first_nm = 0, last_nm = std::numeric_limits<double>::infinity();
 };

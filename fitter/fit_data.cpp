@@ -9,14 +9,49 @@ namespace drude {
 
 namespace {
 
+bool is_chosen(const MeasurementRow& row, const FitOptions& options) {
+    return row.wavelength_nm >= options.first_nm && row.wavelength_nm <= options.last_nm;
+}
+
 std::vector<MeasurementRow> chosen_rows(const Measurement& measurement, const FitOptions& options) {
     std::vector<MeasurementRow> rows;
     for (const MeasurementRow& row : measurement.rows) {
-        if (row.wavelength_nm >= options.first_nm && row.wavelength_nm <= options.last_nm) {
-            rows.push_back(row);
-        }
+        if (is_chosen(row, options)) rows.push_back(row);
     }
     return rows;
+}
+
+struct WeighedRow {
+    MeasurementRow row;
+    double weight = 1;
+};
+
+std::vector<WeighedRow> weighed_rows(const Measurement& measurement, const FitOptions& options) {
+    const std::vector<double>& weights = options.weights;
+    if (!weights.empty() && weights.size() != measurement.rows.size()) {
+        user_error("found {} weights, expected one for each of the {} rows", weights.size(),
+                   measurement.rows.size());
+    }
+    std::vector<WeighedRow> rows;
+    for (size_t i = 0; i < measurement.rows.size(); ++i) {
+        const double weight = weights.empty() ? 1 : weights[i];
+        if (!(weight > 0 && std::isfinite(weight))) {
+            user_error("found a weight of {}, expected a finite one above 0", weight);
+        }
+        if (is_chosen(measurement.rows[i], options)) rows.push_back({measurement.rows[i], weight});
+    }
+    return rows;
+}
+
+// Its squared residuals multiplied by `weight`, whatever the estimator.
+AnglePoint weighed(AnglePoint point, double weight) {
+    const double root = std::sqrt(weight);
+    for (double& component : point.along_psi) component *= root;
+    for (double& component : point.along_delta) component *= root;
+    point.sigma_psi /= root;
+    point.sigma_delta /= root;
+    point.sigma_tan2_psi /= root;
+    return point;
 }
 
 std::vector<ThinFilm<double>> layers_at(const std::vector<FilmLayer>& layers,
@@ -31,9 +66,19 @@ std::vector<ThinFilm<double>> layers_at(const std::vector<FilmLayer>& layers,
 
 }  // namespace
 
+AnglePoint angle_point(const MeasurementRow& row, const FitOptions& options) {
+    double sigma_psi = 1, sigma_delta = 1;
+    if (!options.unweighted) {
+        sigma_psi = row.sigma_psi_deg > 0 ? row.sigma_psi_deg : options.default_sigma_psi_deg;
+        sigma_delta =
+            row.sigma_delta_deg > 0 ? row.sigma_delta_deg : options.default_sigma_delta_deg;
+    }
+    return make_angle_point(row.angle_deg, row.psi_deg, row.delta_deg, sigma_psi, sigma_delta);
+}
+
 std::vector<WavelengthData> group_by_wavelength(const Measurement& measurement,
                                                 const FitOptions& options) {
-    std::vector<MeasurementRow> rows = chosen_rows(measurement, options);
+    std::vector<WeighedRow> rows = weighed_rows(measurement, options);
     if (rows.empty()) {
         const std::vector<double> wavelengths = measurement.wavelengths();
         user_error(
@@ -41,24 +86,19 @@ std::vector<WavelengthData> group_by_wavelength(const Measurement& measurement,
             measurement.file.empty() ? "measurement" : measurement.file, options.first_nm,
             options.last_nm, wavelengths.front(), wavelengths.back());
     }
-    std::sort(rows.begin(), rows.end(), [](const MeasurementRow& a, const MeasurementRow& b) {
-        if (a.wavelength_nm != b.wavelength_nm) return a.wavelength_nm < b.wavelength_nm;
-        return a.angle_deg < b.angle_deg;
+    std::sort(rows.begin(), rows.end(), [](const WeighedRow& a, const WeighedRow& b) {
+        if (a.row.wavelength_nm != b.row.wavelength_nm) {
+            return a.row.wavelength_nm < b.row.wavelength_nm;
+        }
+        return a.row.angle_deg < b.row.angle_deg;
     });
     std::vector<WavelengthData> groups;
-    for (const MeasurementRow& row : rows) {
+    for (const auto& [row, weight] : rows) {
         if (groups.empty() || groups.back().wavelength_nm != row.wavelength_nm) {
             groups.push_back(
                 {row.wavelength_nm, {}, layers_at(options.overlayers, row.wavelength_nm)});
         }
-        double sigma_psi = 1, sigma_delta = 1;
-        if (!options.unweighted) {
-            sigma_psi = row.sigma_psi_deg > 0 ? row.sigma_psi_deg : options.default_sigma_psi_deg;
-            sigma_delta =
-                row.sigma_delta_deg > 0 ? row.sigma_delta_deg : options.default_sigma_delta_deg;
-        }
-        groups.back().points.push_back(
-            make_angle_point(row.angle_deg, row.psi_deg, row.delta_deg, sigma_psi, sigma_delta));
+        groups.back().points.push_back(weighed(angle_point(row, options), weight));
     }
     return groups;
 }

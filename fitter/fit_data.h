@@ -9,9 +9,13 @@
 
 namespace drude {
 
+// One row with the standard deviations that the options give it.
+AnglePoint angle_point(const MeasurementRow& row, const FitOptions& options);
+
 // The rows within the options' range, ascending in wavelength, then in angle, so that the order of
 // the rows in a file does not move the last digit of a fit. Every wavelength carries the options'
-// overlayers. Throws Error (user) where no row lies within the range.
+// overlayers, and every row the options' weight. Throws Error (user) where no row lies within the
+// range, and for weights that are not one for every row, above 0 and finite.
 std::vector<WavelengthData> group_by_wavelength(const Measurement& measurement,
                                                 const FitOptions& options);
 

@@ -64,6 +64,10 @@ struct FitResult {
     int data = 0;                    // residuals in that sum
     int parameters = 0;              // fitted to them
     std::vector<LadderRung> ladder;  // of the model "auto", in the order tried; otherwise empty
+    // The robust loss, "" without; then `chi2` is the sum of the losses, and so many rows of those
+    // fitted count for less than half of what least squares would let them.
+    std::string robust;
+    int rows_down_weighted = 0;
     std::vector<std::string> warnings;
 
     int dof() const { return data - parameters; }

@@ -14,18 +14,6 @@ namespace drude {
 namespace {
 
 constexpr double degree = pi / 180;
-constexpr double largest_offset = 2 * degree;
-
-std::vector<WavelengthData> shifted(std::vector<WavelengthData> groups, double offset) {
-    for (WavelengthData& group : groups) {
-        for (AnglePoint& point : group.points) {
-            const double theta = std::atan2(point.sin_theta, point.cos_theta) + offset;
-            point.cos_theta = std::cos(theta);
-            point.sin_theta = std::sin(theta);
-        }
-    }
-    return groups;
-}
 
 // What one wavelength says of the offset.
 struct Share {
@@ -72,7 +60,7 @@ State solve_at(const std::vector<WavelengthData>& groups, Estimator estimator, d
                int threads) {
     State state;
     state.offset = offset;
-    const std::vector<WavelengthData> moved = shifted(groups, offset);
+    const std::vector<WavelengthData> moved = with_angle_offset(groups, offset);
     state.points.resize(groups.size());
     state.shares.resize(groups.size());
     parallel_for(groups.size(), threads, [&](size_t i) {
@@ -100,6 +88,17 @@ void widen(const Share& share, double sigma, FittedPoint* point) {
 
 }  // namespace
 
+std::vector<WavelengthData> with_angle_offset(std::vector<WavelengthData> groups, double offset) {
+    for (WavelengthData& group : groups) {
+        for (AnglePoint& point : group.points) {
+            const double theta = std::atan2(point.sin_theta, point.cos_theta) + offset;
+            point.cos_theta = std::cos(theta);
+            point.sin_theta = std::sin(theta);
+        }
+    }
+    return groups;
+}
+
 OffsetFit fit_with_offset(const std::vector<WavelengthData>& groups, Estimator estimator,
                           int threads) {
     State best = solve_at(groups, estimator, 0, threads);
@@ -126,7 +125,7 @@ OffsetFit fit_with_offset(const std::vector<WavelengthData>& groups, Estimator e
                 converged = true;  // no step leads downwards
                 break;
             }
-            if (std::abs(best.offset + step) < largest_offset) {
+            if (std::abs(best.offset + step) < largest_angle_offset) {
                 State next = solve_at(groups, estimator, best.offset + step, threads);
                 // A wavelength that is lost on the way takes its chi-square along.
                 if (next.solved >= best.solved && next.chi2 < best.chi2) {
@@ -138,13 +137,14 @@ OffsetFit fit_with_offset(const std::vector<WavelengthData>& groups, Estimator e
         }
     }
     const double sigma = 1 / std::sqrt(information);
-    if (!converged || sigma > largest_offset || std::abs(best.offset) > 0.99 * largest_offset) {
+    if (!converged || sigma > largest_angle_offset ||
+        std::abs(best.offset) > 0.99 * largest_angle_offset) {
         throw Error(
             Cause::answer_is_no,
             fmt::format("no fit: the common offset of the angles of incidence ends at {:.2f} "
                         "+- {:.2g} degrees, expected within {} of 0: the sample is no bare "
                         "surface, or the layers on it are others",
-                        best.offset / degree, sigma / degree, largest_offset / degree));
+                        best.offset / degree, sigma / degree, largest_angle_offset / degree));
     }
     OffsetFit fit;
     fit.points = std::move(best.points);

@@ -8,6 +8,12 @@
 
 namespace drude {
 
+// In radians, either way: an instrument that is further out is not aligned.
+inline constexpr double largest_angle_offset = 2 * pi / 180;
+
+// The data at angles of incidence that are `offset` radians larger than stated.
+std::vector<WavelengthData> with_angle_offset(std::vector<WavelengthData> groups, double offset);
+
 struct OffsetFit {
     std::vector<FittedPoint> points;  // as fit_point() gives them, at the corrected angles; their
                                       // sigmas contain that of the offset

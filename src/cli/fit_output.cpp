@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/numbers.h"
+#include "cli/fit_statistics_output.h"
 #include "cli/json_output.h"
 
 namespace drude {
@@ -74,19 +75,6 @@ void print_table(const FitResult& fit) {
     }
 }
 
-std::string what_was_fitted(const FitResult& fit) {
-    if (!fit.substrate.wavelength_nm.empty()) {
-        return fmt::format("n and k of a film on {}", fit.substrate.name);
-    }
-    if (fit.layers.empty()) return "pseudo n and k of a bare surface";
-    std::string layers;
-    for (const FilmLayer& layer : fit.layers) {
-        layers += fmt::format("{}{:g} nm of {}", layers.empty() ? "" : " on ", layer.thickness_nm,
-                              layer.constants.name);
-    }
-    return "n and k below " + layers;
-}
-
 ordered_json ladder(const FitResult& fit) {
     ordered_json list = ordered_json::array();
     for (const LadderRung& rung : fit.ladder) {
@@ -143,14 +131,15 @@ void add_lobes(const LobeFitResult& result, ordered_json* document) {
 
 }  // namespace
 
-void print_fit_json(const FitResult& fit, const Measurement& measurement, const Material& material,
-                    const std::string& output, const LobeFitResult* lobes) {
+void print_fit_json(const FitReport& report, const Material& material, const std::string& output,
+                    const LobeFitResult* lobes) {
+    const FitResult& fit = report.fit;
     ordered_json document = {{"model", fit.model},
                              {"estimator", fit.estimator},
                              {"name", material.name},
                              {"measurement", material.provenance.measurement},
                              {"measurement_sha256", material.provenance.measurement_sha256},
-                             {"angles_deg", measurement.angles()},
+                             {"angles_deg", report.measurement.angles()},
                              {"wavelengths_nm", column(fit, &FittedPoint::wavelength_nm)},
                              {"n", column(fit, &FittedPoint::n)},
                              {"k", column(fit, &FittedPoint::k)},
@@ -176,20 +165,22 @@ void print_fit_json(const FitResult& fit, const Measurement& measurement, const 
         document["rival"] = {{"thickness_nm", fit.rival_thickness_nm},
                              {"chi2_excess", fit.rival_chi2_excess}};
     }
+    add_statistics(report, &document);
     if (lobes) add_lobes(*lobes, &document);
     document["output"] = output.empty() ? ordered_json(nullptr) : ordered_json(output);
     print_json_document(document);
 }
 
-void print_fit_text(const FitResult& fit, const Material& material, bool with_table,
-                    bool unweighted) {
+void print_fit_text(const FitReport& report, bool with_table) {
+    const FitResult& fit = report.fit;
+    const bool unweighted = report.options.unweighted;
     if (with_table) print_table(fit);
     if (!fit.ladder.empty()) print_ladder(fit);
     const bool film = !fit.substrate.wavelength_nm.empty();
     const auto determined = std::count_if(fit.points.begin(), fit.points.end(),
                                           [](const FittedPoint& p) { return p.identifiable; });
     fmt::print("{}: {} model, estimator {}: {} at {} of {} wavelengths, {:g} to {:g} nm\n",
-               material.name, fit.model, fit.estimator, what_was_fitted(fit), determined,
+               report.name, fit.model, fit.estimator, what_was_fitted(fit), determined,
                fit.points.size(), fit.points.front().wavelength_nm,
                fit.points.back().wavelength_nm);
     for (const FittedParameter& p : fit.common) {
@@ -207,10 +198,14 @@ void print_fit_text(const FitResult& fit, const Material& material, bool with_ta
     if (unweighted && fit.dof() > 0) {
         fmt::print("root mean square of the residuals {:.4f} degrees\n",
                    std::sqrt(fit.chi2 / fit.data));
+    } else if (!fit.robust.empty() && fit.dof() > 0) {
+        fmt::print("sum of {} losses over {} degrees of freedom {:.4f}; {} rows down-weighted\n",
+                   fit.robust, fit.dof(), fit.chi2_reduced(), fit.rows_down_weighted);
     } else if (fit.dof() > 0) {
         fmt::print("reduced chi-square {:.4f} with {} degrees of freedom (1 +- {:.2g} expected)\n",
                    fit.chi2_reduced(), fit.dof(), std::sqrt(2.0 / fit.dof()));
     }
+    print_statistics(report, with_table);
 }
 
 void print_lobe_json(const LobeFitResult& lobes, const Material& material,

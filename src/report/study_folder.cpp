@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "base/numbers.h"
 #include "device/ellipsometer_simulation.h"
+#include "fitter/literature.h"
 #include "materials/json_tree.h"
 
 namespace drude {
@@ -252,18 +253,9 @@ StudyPair read_pair(const std::string& folder, const StudyMetal& metal) {
 }
 
 void compare_constants(StudyMetal* metal) {
-    const OpticalConstants& fitted = metal->fitted;
-    OpticalConstants literature = metal->literature;
-    literature.policy = RangePolicy::clamp;
-    double dn2 = 0, dk2 = 0;
-    for (size_t i = 0; i < fitted.n.size(); ++i) {
-        const Index there = literature.at(fitted.wavelength_nm[i]);
-        dn2 += std::pow(fitted.n[i] - there.n, 2);
-        dk2 += std::pow(fitted.k[i] - there.k, 2);
-    }
-    const double count = static_cast<double>(fitted.n.size());
-    metal->rms_dn = std::sqrt(dn2 / count);
-    metal->rms_dk = std::sqrt(dk2 / count);
+    const ConstantsDistance distance = constants_distance(metal->fitted, metal->literature);
+    metal->rms_dn = distance.rms_dn;
+    metal->rms_dk = distance.rms_dk;
 }
 
 }  // namespace drude

@@ -30,8 +30,7 @@ struct StudyPair {
 // differ in size.
 StudyPair read_pair(const std::string& folder, const StudyMetal& metal);
 
-// rms_dn and rms_dk of `metal`, over the fitted wavelengths, against its literature's constants
-// (interpolated linearly, the end values held).
+// rms_dn and rms_dk of `metal` against its literature's constants.
 void compare_constants(StudyMetal* metal);
 
 }  // namespace drude

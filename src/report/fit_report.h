@@ -1,0 +1,33 @@
+// All there is to say about one fit, for whoever prints, draws or tabulates it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fitter/bootstrap.h"
+#include "fitter/literature.h"
+#include "fitter/profile.h"
+#include "materials/measurement.h"
+
+namespace drude {
+
+struct FitReport {
+    std::string name;  // of the material
+    Measurement measurement;
+    FitOptions options;
+    FitResult fit;
+    std::optional<LiteratureComparison> literature;
+    std::optional<BootstrapResult> bootstrap;
+    std::optional<ProfileResult> profile;
+    Provenance provenance;
+};
+
+// What the constants at `fit.points` are of: "pseudo n and k of a bare surface".
+std::string what_was_fitted(const FitResult& fit);
+
+// A self-contained HTML document: figures, parameters, ladder, literature, warnings.
+std::string fit_page(const FitReport& report);
+
+}  // namespace drude
