@@ -248,8 +248,12 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
     } else {
         for (int i = 0; i <= 9; ++i) porosities.push_back(0.05 * i);
     }
-    const std::vector<FilmStart> starts = search_film(
-        problem, porosities, options.film.largest_thickness_nm, starts_refined, options.threads);
+    const auto& guess = options.film.start;
+    const std::vector<FilmStart> starts =
+        guess ? std::vector<FilmStart>{{guess->thickness_nm,
+                                        options.film.porosity.value_or(guess->porosity), 0}}
+              : search_film(problem, porosities, options.film.largest_thickness_nm, starts_refined,
+                            options.threads);
     std::vector<FilmSolution> solutions(starts.size());
     parallel_for(starts.size(), options.threads, [&](size_t i) {
         solutions[i] = refine(problem, starts[i], free, options.film.largest_thickness_nm);

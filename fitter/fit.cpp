@@ -80,6 +80,12 @@ void check_structure(const FitOptions& options) {
     if (!(largest >= 1 && largest <= 1e5)) {
         user_error("found {} nm as the largest thickness to try, expected 1 to 100000", largest);
     }
+    const auto& start = options.film.start;
+    if (start && !(start->thickness_nm >= 0 && start->thickness_nm <= largest &&
+                   start->porosity >= 0 && start->porosity <= 0.95)) {
+        user_error("found a start of {} nm with the porosity {}, expected 0 to {} nm and 0 to 0.95",
+                   start->thickness_nm, start->porosity, largest);
+    }
 }
 
 void check_offset(const Measurement& measurement, const FitOptions& options) {

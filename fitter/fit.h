@@ -16,6 +16,10 @@
 
 namespace drude {
 
+struct FilmGuess {
+    double thickness_nm = 0, porosity = 0;
+};
+
 // What the model "film" knows beforehand: light meets a film of unknown thickness, a Bruggeman
 // mixture of `material` with empty pores, on a known substrate.
 struct FilmModel {
@@ -23,6 +27,9 @@ struct FilmModel {
     OpticalConstants material;
     std::optional<double> porosity;  // volume fraction of the pores, in [0, 0.95]; empty: fitted
     double largest_thickness_nm = 10000;  // the search ends here; in [1, 1e5]
+    // Where least squares starts, instead of the search: it finds the minimum of this basin only,
+    // which is some per cent of the thickness wide. Within the ranges of the two.
+    std::optional<FilmGuess> start;
 };
 
 struct FitOptions {

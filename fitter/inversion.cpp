@@ -45,7 +45,8 @@ InvertedIndex invert_psi_delta(const AnglePoint& point) {
     const Complex64 one(1, 0), i(0, 1);
     const Complex64 ratio = (one - r) / (one + r);
     const double sin2 = point.sin_theta * point.sin_theta;
-    const Complex64 index = std::sqrt(sin2 * (one + tan_theta * tan_theta * ratio * ratio));
+    Complex64 index = std::sqrt(sin2 * (one + tan_theta * tan_theta * ratio * ratio));
+    if (-index.imag() > index.real()) index = -index;
     // dN/dr, then dr = r (2/sin 2Psi dPsi - i dDelta); the map is analytic in r.
     const Complex64 slope =
         sin2 * tan_theta * tan_theta * ratio / index * (-2.0 / ((one + r) * (one + r)));

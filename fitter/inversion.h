@@ -6,7 +6,7 @@
 namespace drude {
 
 struct InvertedIndex {
-    double n = 0, k = 0;              // n >= 0; k < 0 where Delta is outside [0, 180] degrees
+    double n = 0, k = 0;              // the larger of them is positive
     double sigma_n = 0, sigma_k = 0;  // propagated to first order
     double covariance = 0;            // of n and k
 };
@@ -15,6 +15,10 @@ struct InvertedIndex {
 //   N^2 = sin^2 [1 + tan^2 ((1 - r)/(1 + r))^2]
 // (Azzam & Bashara 1977, section 4.17; for conj(rho) = (s - q)/(s + q), s = sin tan). NaN where
 // r = -1: that is normal or grazing incidence, where Psi and Delta say nothing.
+//
+// Of the two roots +-N noise must not make a choice: where it takes n of silver or k of glass below
+// 0, that small one is negative and averages out. It is so too where Delta lies outside [0, 180]
+// degrees, where no bare surface has it.
 InvertedIndex invert_psi_delta(const AnglePoint& point);
 
 struct AveragedIndex {

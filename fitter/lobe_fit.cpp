@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "base/error.h"
 #include "fitter/lobe_scan_model.h"
+#include "materials/microfacet.h"
 
 namespace drude {
 
@@ -39,22 +39,58 @@ double beta_of_cone(Lobe lobe, double half_angle) {
     return high;
 }
 
-// Chi-square at the best scales, and Gauss and Newton's slope and information in beta.
+// What the data of one wavelength say of their common scale, over the standard deviations:
+// m the model at scale 1, d its derivative by beta, y the data.
+struct Sums {
+    double mm = 0, md = 0, dd = 0, ym = 0, yd = 0, yy = 0;
+    // The scale that fits best; a negative one reflects nothing.
+    double scale() const { return mm > 0 ? std::max(ym / mm, 0.0) : 0; }
+    double chi2() const { return yy - 2 * scale() * ym + scale() * scale() * mm; }
+};
+
+// Chi-square at the best scales.
+double chi2_at(const LobeScanModel& model, Lobe lobe, double beta) {
+    const LobeDensity<double> density(lobe, beta);
+    std::vector<double> D;
+    D.reserve(model.tan2().size());
+    for (const double tan2 : model.tan2()) D.push_back(density(tan2));
+    const std::vector<double> seen = model.average(D);
+    std::vector<Sums> sums(model.wavelength_count());
+    for (size_t i = 0; i < seen.size(); ++i) {
+        const LobeDatum& datum = model.data()[i];
+        const double m = seen[i] / datum.sigma, y = datum.value / datum.sigma;
+        Sums& s = sums[datum.wavelength];
+        s.mm += m * m;
+        s.ym += y * m;
+        s.yy += y * y;
+    }
+    double chi2 = 0;
+    for (const Sums& s : sums) chi2 += s.chi2();
+    return chi2;
+}
+
+// The same with Gauss and Newton's slope and information in beta.
 struct Profile {
     double chi2 = 0, slope = 0, information = 0, whole = 0;
 };
 
 Profile profile_at(const LobeScanModel& model, Lobe lobe, double beta) {
-    const std::vector<Jet> values = model.evaluate(LobeDensity<Jet>(lobe, Jet(beta, 0)));
-    struct Sums {
-        double mm = 0, md = 0, dd = 0, ym = 0, yd = 0, yy = 0;
-    };
-    std::map<size_t, Sums> by_wavelength;
-    for (size_t i = 0; i < values.size(); ++i) {
+    const LobeDensity<Jet> density(lobe, Jet(beta, 0));
+    std::vector<double> D, by_beta;
+    D.reserve(model.tan2().size());
+    by_beta.reserve(model.tan2().size());
+    for (const double tan2 : model.tan2()) {
+        const Jet value = density(Jet(tan2));
+        D.push_back(value.a);
+        by_beta.push_back(value.v[0]);
+    }
+    const std::vector<double> seen = model.average(D), seen_by_beta = model.average(by_beta);
+    std::vector<Sums> sums(model.wavelength_count());
+    for (size_t i = 0; i < seen.size(); ++i) {
         const LobeDatum& datum = model.data()[i];
-        const double m = values[i].a / datum.sigma, d = values[i].v[0] / datum.sigma;
+        const double m = seen[i] / datum.sigma, d = seen_by_beta[i] / datum.sigma;
         const double y = datum.value / datum.sigma;
-        Sums& s = by_wavelength[datum.wavelength];
+        Sums& s = sums[datum.wavelength];
         s.mm += m * m;
         s.md += m * d;
         s.dd += d * d;
@@ -63,14 +99,10 @@ Profile profile_at(const LobeScanModel& model, Lobe lobe, double beta) {
         s.yy += y * y;
     }
     Profile profile;
-    for (const auto& [wavelength, s] : by_wavelength) {
-        if (!(s.mm > 0)) {
-            profile.chi2 += s.yy;
-            continue;
-        }
-        // The scale that fits best; a negative one reflects nothing.
-        const double scale = std::max(s.ym / s.mm, 0.0);
-        profile.chi2 += s.yy - 2 * scale * s.ym + scale * scale * s.mm;
+    for (const Sums& s : sums) {
+        profile.chi2 += s.chi2();
+        if (!(s.mm > 0)) continue;
+        const double scale = s.scale();
         const double outside = s.dd - s.md * s.md / s.mm;
         profile.information += scale * scale * std::max(outside, 0.0);
         profile.whole += scale * scale * s.dd;
@@ -88,7 +120,7 @@ FittedLobe fit_lobe(const LobeScanModel& model, Lobe lobe, double half_angle) {
     std::vector<double> grid, chi2;
     for (int i = 0; i <= steps; ++i) {
         grid.push_back(lowest * std::pow(highest / lowest, static_cast<double>(i) / steps));
-        chi2.push_back(profile_at(model, lobe, grid.back()).chi2);
+        chi2.push_back(chi2_at(model, lobe, grid.back()));
     }
     const size_t at =
         static_cast<size_t>(std::min_element(chi2.begin(), chi2.end()) - chi2.begin());

@@ -1,8 +1,10 @@
 #include "fitter/lobe_scan_model.h"
 
+#include <Eigen/Core>
 #include <cmath>
 #include <map>
 
+#include "materials/microfacet.h"
 #include "materials/surface.h"
 
 namespace drude {
@@ -48,13 +50,17 @@ std::vector<Node> cone_nodes(const Direction& i, double axis_angle, double half_
         const double share = (static_cast<double>(ring) + 0.5) / LobeScanModel::rings;
         const double fall = share * 2 * std::pow(std::sin(half_angle / 2), 2);  // 1 - cos
         const double sine = std::sqrt(fall * (2 - fall));
-        for (size_t spoke = 0; spoke < LobeScanModel::spokes; ++spoke) {
-            const double phi = 2 * pi *
-                               (static_cast<double>(spoke) + 0.5 * static_cast<double>(ring % 2)) /
+        const bool in_plane_spokes = ring % 2 == 0;
+        for (size_t spoke = 0; spoke < LobeScanModel::spokes / 2 + (in_plane_spokes ? 1 : 0);
+             ++spoke) {
+            const double phi = 2 * pi * (static_cast<double>(spoke) + (in_plane_spokes ? 0 : 0.5)) /
                                LobeScanModel::spokes;
+            const bool alone =
+                in_plane_spokes && (spoke == 0 || spoke == LobeScanModel::spokes / 2);
             const Direction o =
                 (1 - fall) * axis + sine * (std::cos(phi) * along + std::sin(phi) * across);
-            nodes.push_back(make_node(i, o, masking, 1.0 / LobeScanModel::nodes));
+            constexpr double share_of_all = 1.0 / (LobeScanModel::rings * LobeScanModel::spokes);
+            nodes.push_back(make_node(i, o, masking, alone ? share_of_all : 2 * share_of_all));
         }
     }
     return nodes;
@@ -97,6 +103,16 @@ LobeScanModel::LobeScanModel(const LobeScan& scan, const Material& metal) {
     }
     for (const Node& node : nodes_of_all) tan2_.push_back(node.tan2);
     wavelengths_ = wavelengths.size();
+}
+
+std::vector<double> LobeScanModel::average(const std::vector<double>& at_facets) const {
+    using Nodes = Eigen::Map<const Eigen::Matrix<double, static_cast<int>(nodes), 1>>;
+    std::vector<double> values;
+    values.reserve(data_.size());
+    for (size_t i = 0; i < data_.size(); ++i) {
+        values.push_back(Nodes(&weights_[i * nodes]).dot(Nodes(&at_facets[first_node_[i]])));
+    }
+    return values;
 }
 
 }  // namespace drude

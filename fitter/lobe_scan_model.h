@@ -5,7 +5,6 @@
 
 #include "materials/lobe_scan.h"
 #include "materials/material.h"
-#include "materials/microfacet.h"
 
 namespace drude {
 
@@ -28,28 +27,19 @@ class LobeScanModel {
     const std::vector<LobeDatum>& data() const { return data_; }
     size_t wavelength_count() const { return wavelengths_; }
 
-    // As data(), for one density; T is double or ceres::Jet.
-    template <class T>
-    std::vector<T> evaluate(const LobeDensity<T>& density) const {
-        std::vector<T> D;
-        D.reserve(tan2_.size());
-        for (const double tan2 : tan2_) D.push_back(density(T(tan2)));
-        std::vector<T> values;
-        values.reserve(data_.size());
-        for (size_t i = 0; i < data_.size(); ++i) {
-            T sum(0.0);
-            const double* weight = &weights_[i * nodes];
-            const T* density_at = &D[first_node_[i]];
-            for (size_t j = 0; j < nodes; ++j) sum += weight[j] * density_at[j];
-            values.push_back(sum);
-        }
-        return values;
-    }
+    // tan^2 of the facets' angles at which the density is wanted.
+    const std::vector<double>& tan2() const { return tan2_; }
+    // What the detector sees of a quantity that is linear in the density, given at tan2(): one
+    // value for each of data().
+    std::vector<double> average(const std::vector<double>& at_facets) const;
 
-    static constexpr size_t rings = 5, spokes = 12, nodes = rings * spokes;
+    // The cone and the light are symmetric about the plane of incidence: every second ring has a
+    // spoke in that plane on either side, and the others count twice.
+    static constexpr size_t rings = 5, spokes = 12;
+    static constexpr size_t nodes = (rings + 1) / 2 * (spokes / 2 + 1) + rings / 2 * (spokes / 2);
 
   private:
-    std::vector<double> tan2_;        // of the half vectors, `nodes` for every distinct position
+    std::vector<double> tan2_;        // `nodes` for every distinct position
     std::vector<size_t> first_node_;  // of each datum, in tan2_
     std::vector<double> weights_;     // `nodes` for each datum
     std::vector<LobeDatum> data_;

@@ -15,6 +15,7 @@
 #include "base/sha256.h"
 #include "cli/command_list.h"
 #include "cli/fit_output.h"
+#include "cli/fit_paper.h"
 #include "cli/fit_statistics.h"
 #include "fitter/fitted_material.h"
 #include "fitter/import.h"
@@ -34,6 +35,7 @@ struct FitCommandOptions {
     bool angle_offset = false, unweighted = false;
     std::string range;
     std::string lobe_scan, constants;
+    PaperCommandOptions paper;
     std::string name, output;
     FitStatisticsOptions statistics;
 };
@@ -175,6 +177,10 @@ int run_lobe_fit(const FitCommandOptions& options, const CommonOptions& common) 
 }
 
 int run_fit(const FitCommandOptions& options, const OptionSet& given, const CommonOptions& common) {
+    check_paper_options(options.paper, given);
+    if (options.paper.wanted) {
+        return run_like_the_paper(options.paper, options.measurement, options.format, common);
+    }
     check_combination(options, given);
     if (options.measurement.empty()) return run_lobe_fit(options, common);
     const std::string text = read_file(options.measurement);
@@ -253,9 +259,16 @@ Command fit_command() {
         "The roughness of a lobe cannot be had from Psi and Delta and is refused with the reason. "
         "--lobe-scan takes reflectance against the detector's offset and fits beta of all four "
         "lobes, with V-groove masking, averaged over the detector's cone, with a free scale for "
-        "every wavelength; n and k are those of the measurement, or of --constants. Lobes within 6 "
+        "every wavelength; n and k are those of the measurement, or of --constants. Lobes within "
+        "18 "
         "of the best chi-square are a tie and are reported together; a lobe narrower than the cone "
-        "gives an upper bound. A material is written for one lobe: --lobe names it where some tie.";
+        "gives an upper bound. A material is written for one lobe: --lobe names it where some "
+        "tie.\n\n"
+        "--like-the-paper repeats Table 1 of Berger, Weidlich, Wilkie and Magnor (2012) with the "
+        "measurement: tan^2 Psi at one wavelength, from literature values, the ratio of the "
+        "Fresnel terms alone and under each of the four lobes with beta as a third unknown; beside "
+        "it what psi-delta finds, the paper's own values of that metal, and a note of what of it "
+        "is information. Without a measurement the printed table itself is put to the test.";
     command.example =
         "$ drude fit cu.csv -o cu.json\n"
         "Cu-McPeak: bulk model, estimator psi-delta: pseudo n and k of a bare surface at 81 of 81 "
@@ -289,6 +302,7 @@ Command fit_command() {
         options.option("--constants", values->constants,
                        "MATERIAL of a lobe scan, where no measurement gives n and k");
         options.option("--lobe", values->lobe, "of a lobe scan: the one to write where some tie");
+        declare_paper_options(options, values->paper);
         options.choice("--format", values->format, measurement_formats(),
                        "of the measurement; auto goes by content");
         options.option("--name", values->name, "of the material");

@@ -122,6 +122,25 @@ TEST(Film, FixedPorosityLeavesTheThickness) {
     for (const FittedPoint& point : fit.points) EXPECT_EQ(point.sigma_n, 0);
 }
 
+// Least squares alone finds the minimum of the basin that it starts in, and no other.
+TEST(Film, AGivenStartTakesThePlaceOfTheSearch) {
+    const Measurement data = measured_film(3000, 0.1, 1);
+    FitOptions options = film_options();
+    const FitResult searched = fit_measurement(data, options);
+    options.film.start = FilmGuess{3010, 0.11};
+    const FitResult near = fit_measurement(data, options);
+    EXPECT_NEAR(value_of(near, "thickness"), value_of(searched, "thickness"), 1e-5);
+    EXPECT_NEAR(near.chi2, searched.chi2, 1e-6 * searched.chi2);
+    EXPECT_EQ(near.rival_thickness_nm, 0);
+    options.film.start = FilmGuess{2300, 0.11};
+    EXPECT_GT(fit_measurement(data, options).chi2, 10 * searched.chi2);
+    for (const FilmGuess& guess : {FilmGuess{-1, 0.1}, FilmGuess{20000, 0.1}, FilmGuess{3000, 1},
+                                   FilmGuess{NAN, 0.1}, FilmGuess{3000, NAN}}) {
+        options.film.start = guess;
+        EXPECT_THROW(fit_measurement(data, options), Error);
+    }
+}
+
 TEST(Film, ThreadsDoNotMoveABit) {
     const Measurement data = measured_film(1234, 0.3, 5);
     FitOptions options = film_options();

@@ -37,14 +37,14 @@ inline std::vector<double> paper_angles() {
     return {45, 50, 60, 70, 75, 80};
 }
 
-// One wavelength; seed 0 is noise-free.
+// One wavelength; seed 0 is noise-free. `stream` keeps experiments with the same seeds apart.
 inline Measurement measured(const MetalCase& metal, const std::vector<double>& angles_deg,
-                            uint64_t seed) {
+                            uint64_t seed, uint64_t stream = 0) {
     Measurement data;
     for (size_t i = 0; i < angles_deg.size(); ++i) {
         const Reflection<double> r =
             reflect(ComplexIndex<double>{metal.n, metal.k}, std::cos(angles_deg[i] * pi / 180));
-        const auto noise = normal_pair(seed, i);
+        const auto noise = normal_pair(seed, i, stream);
         MeasurementRow row;
         row.wavelength_nm = 516;
         row.angle_deg = angles_deg[i];

@@ -85,6 +85,25 @@ TEST(Inversion, PropagatedErrorsMatchFiniteDifferences) {
     }
 }
 
+// With n as small as its noise, half of the draws lie below 0; k keeps its sign in all of them.
+TEST(Inversion, NoiseAcrossZeroMovesTheSmallConstantOnly) {
+    const MetalCase mirror = {"mirror", 1e-3, 3.085}, glass = {"glass", 1.52, 1e-3};
+    int below = 0;
+    for (uint64_t seed = 1; seed <= 50; ++seed) {
+        const InvertedIndex metal =
+            invert_psi_delta(prepared(measured(mirror, {45}, seed)).points[0]);
+        EXPECT_NEAR(metal.k, mirror.k, 5 * metal.sigma_k) << seed;
+        EXPECT_NEAR(metal.n, mirror.n, 5 * metal.sigma_n) << seed;
+        const InvertedIndex clear =
+            invert_psi_delta(prepared(measured(glass, {45}, seed)).points[0]);
+        EXPECT_NEAR(clear.n, glass.n, 5 * clear.sigma_n) << seed;
+        EXPECT_NEAR(clear.k, glass.k, 5 * clear.sigma_k) << seed;
+        below += (metal.n < 0) + (clear.k < 0);
+    }
+    EXPECT_GT(below, 20);
+    EXPECT_LT(below, 80);
+}
+
 TEST(Inversion, StartOfTheRho2FitIsNear) {
     for (const MetalCase& metal : metal_cases()) {
         const AveragedIndex start =
