@@ -1,5 +1,7 @@
 #include "report/claim_figures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,6 +22,11 @@ OpticalConstants clamped(OpticalConstants set) {
 }
 
 }  // namespace
+
+std::string percent_text(double share) {
+    return std::abs(share) < 0.1 && share != 0 ? fmt::format("{:.2g} %", 100 * share)
+                                               : fmt::format("{:.0f} %", 100 * share);
+}
 
 const StudyMetal* find_metal(const Study& study, const std::string& folder) {
     for (const StudyMetal& metal : study.metals) {
@@ -75,21 +82,16 @@ EnvelopeShare envelope_share(const StudyMetal& metal) {
     return result;
 }
 
-SignedGap signed_gap(const StudyMetal& metal, bool n) {
-    const OpticalConstants literature = clamped(metal.literature);
-    SignedGap gap;
-    double sum = 0;
-    const size_t count = metal.fitted.n.size();
-    for (size_t i = 0; i < count; ++i) {
-        const Index there = literature.at(metal.fitted.wavelength_nm[i]);
-        const double ours = n ? metal.fitted.n[i] : metal.fitted.k[i],
-                     theirs = n ? there.n : there.k;
-        gap.relative += ours - theirs;
-        gap.below += (ours < theirs) / static_cast<double>(count);
-        sum += theirs;
+double relative_gap(const OpticalConstants& fitted, const OpticalConstants& set, bool n) {
+    double gap = 0, sum = 0;
+    for (size_t i = 0; i < fitted.n.size(); ++i) {
+        const double nm = fitted.wavelength_nm[i];
+        if (!set.covers(nm, nm)) continue;
+        const Index there = set.at(nm);
+        gap += n ? fitted.n[i] - there.n : fitted.k[i] - there.k;
+        sum += n ? there.n : there.k;
     }
-    gap.relative /= sum;
-    return gap;
+    return sum > 0 ? gap / sum : std::nan("");
 }
 
 double reflectance_error(const Material& sample, const Material& fitted,
@@ -141,6 +143,28 @@ std::vector<double> psi_at(const Measurement& measurement, double angle_deg) {
     std::vector<double> psi;
     for (const auto& row : rows) psi.push_back(row.second);
     return psi;
+}
+
+int turning_points(const std::vector<double>& values, double least) {
+    if (values.empty()) return 0;
+    int count = 0, direction = 0;
+    double low = values[0], high = values[0];  // since the last turn
+    for (const double v : values) {
+        low = std::min(low, v);
+        high = std::max(high, v);
+        if (direction >= 0 && v < high - least) {
+            count += direction > 0;
+            direction = -1;
+            low = v;
+            high = v;
+        } else if (direction <= 0 && v > low + least) {
+            count += direction < 0;
+            direction = 1;
+            low = v;
+            high = v;
+        }
+    }
+    return count;
 }
 
 }  // namespace drude

@@ -7,6 +7,9 @@
 
 namespace drude {
 
+// "0.42 %", "37 %": two digits.
+std::string percent_text(double share);
+
 // The metal whose folder has this name, or null.
 const StudyMetal* find_metal(const Study& study, const std::string& folder);
 
@@ -23,12 +26,9 @@ struct EnvelopeShare {
 };
 EnvelopeShare envelope_share(const StudyMetal& metal);
 
-// Mean of fitted minus literature, over the mean of the literature, and the share of wavelengths at
-// which the fitted lies below.
-struct SignedGap {
-    double relative = 0, below = 0;
-};
-SignedGap signed_gap(const StudyMetal& metal, bool n);
+// Mean of fitted minus `set`, over the mean of `set`, of n or of k at the fitted wavelengths that
+// the set covers; NaN where it covers none.
+double relative_gap(const OpticalConstants& fitted, const OpticalConstants& set, bool n);
 
 // The largest relative error of the unpolarised reflectance (Rs + Rp)/2 that `fitted` predicts for
 // `sample`, over the wavelengths and angles of `measurement`.
@@ -42,5 +42,8 @@ double largest_ratio_change_by_beta(const OpticalConstants& set, const Measureme
 
 // Psi at one angle of incidence, in order of wavelength.
 std::vector<double> psi_at(const Measurement& measurement, double angle_deg);
+
+// Turning points of `values`: extremes between which they change by more than `least`.
+int turning_points(const std::vector<double>& values, double least);
 
 }  // namespace drude

@@ -27,7 +27,8 @@ struct Claim {
 // In the order of the paper. What a study lacks (no film, no pictures) is "not tested".
 std::vector<Claim> paper_claims(const Study& study);
 
-// Turning points of `values`: extremes between which they change by more than `least`.
-int turning_points(const std::vector<double>& values, double least);
+// Those of them that are about the anodised surface, and about the rendered pairs.
+std::vector<Claim> film_claims(const Study& study);
+std::vector<Claim> picture_claims(const Study& study);
 
 }  // namespace drude

@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "report/study_plots.h"
+#include "report/fit_plots.h"
+#include "report/study_fit.h"
 #include "report/study_sections.h"
 #include "report/web.h"
 
@@ -82,7 +83,8 @@ void section_samples(Page& page, const Study& study) {
     PageTable table;
     table.caption =
         "What each sample is made of, and the published set that stands for the handbook. The "
-        "paper's steels and coins have no counterpart: nobody published theirs.";
+        "paper's own samples, metals from a hardware store and two coins, cannot be had: their "
+        "data were never published.";
     table.columns = {"Sample", "Made of", "Compared with", "Seed of the noise"};
     table.numeric = {false, false, false, true};
     std::vector<std::string> calculated;
@@ -122,8 +124,9 @@ void section_captured(Page& page, const Study& study) {
     page.facts(facts);
     page.begin_grid();
     for (const StudyMetal& m : study.metals) {
-        page.svg(ellipsometry_plot(m, EllipsometricAngle::psi), "");
-        page.svg(ellipsometry_plot(m, EllipsometricAngle::delta), "");
+        const std::vector<FitFigure> figures = data_figures(fit_report_of(m));
+        page.svg(figures[0].svg, "");
+        page.svg(figures[1].svg, "");
     }
     page.end_grid();
 }
@@ -164,13 +167,18 @@ void section_fits(Page& page, const Study& study) {
                                  fmt::format("{:g}", p.truth), p.unit.empty() ? "–" : p.unit});
         page.table(film);
     }
-    page.begin_grid();
     for (const StudyMetal& metal : study.metals) {
-        page.svg(constants_plot(metal, ConstantKind::n), "");
-        page.svg(constants_plot(metal, ConstantKind::k), "");
+        page.heading(metal.name);
+        const FitReport report = fit_report_of(metal);
+        const std::vector<FitFigure> data = data_figures(report);
+        page.begin_grid();
+        for (const FitFigure& figure : constants_figures(report))
+            page.svg(figure.svg, figure.caption);
+        page.svg(data[2].svg, data[2].caption);
+        page.svg(data[3].svg, data[3].caption);
+        page.end_grid();
+        page.details(fmt::format("{}: numbers", metal.name), constants_table(metal));
     }
-    page.end_grid();
-    for (const StudyMetal& metal : study.metals) page.details(metal.name, constants_table(metal));
 }
 
 std::string study_page(const Study& study, const StudyPage& content) {
@@ -184,6 +192,7 @@ std::string study_page(const Study& study, const StudyPage& content) {
     section_samples(page, study);
     section_captured(page, study);
     section_fits(page, study);
+    section_table_1(page, study);
     section_pictures(page, study, content);
     section_claims(page, content);
     section_figures(page, content);

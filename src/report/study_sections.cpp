@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/markup.h"
+#include "report/table_1.h"
 #include "report/viewer.h"
 #include "report/web.h"
 
@@ -88,6 +89,23 @@ void section_question(Page& page, const Study& study, const StudyPage& content) 
                 (study.info.environment_credit.empty()
                      ? ""
                      : " " + study.info.environment_credit + "."));
+}
+
+void section_table_1(Page& page, const Study& study) {
+    page.section("Table 1, the paper's and ours", "table-1");
+    page.paragraph(
+        "The paper fitted |ρ|² = tan²Ψ at one wavelength and all angles, from literature values: "
+        "the ratio of the Fresnel terms, then the ratio under four facet distributions with β as a "
+        "third unknown. Ours is the same procedure with the study's simulated measurement; the "
+        "last line of each table is the fit to Ψ and Δ together.");
+    page.note(
+        "Hatched numbers hold no information. In the mirror direction the facet distribution and "
+        "the masking multiply r_p and r_s alike and cancel in their ratio: every distribution "
+        "gives "
+        "the same n and k, and β ends where the fit was started (ours is shown as start → end). "
+        "Only a scan of the lobe holds β (drude fit --lobe-scan).");
+    page.markup(table_1_markup(table_1(study)));
+    page.code("drude fit --like-the-paper");
 }
 
 void section_pictures(Page& page, const Study& study, const StudyPage& content) {

@@ -288,13 +288,37 @@ StudyMetal metal_of(const std::string& sample, const std::string& literature, co
 TEST(Claims, FiguresOfAPerfectFit) {
     const StudyMetal gold = metal_of("Au-McPeak", "Au-McPeak", "gold");
     EXPECT_LT(ratio_deviation(gold.measurement, gold.literature), 1e-9);
-    EXPECT_EQ(signed_gap(gold, true).relative, 0);
-    EXPECT_EQ(signed_gap(gold, true).below, 0);
+    EXPECT_EQ(relative_gap(gold.fitted, gold.literature, true), 0);
+    OpticalConstants twice = gold.fitted;
+    for (double& k : twice.k) k *= 2;
+    EXPECT_NEAR(relative_gap(gold.fitted, twice, false), -0.5, 1e-12);
+    EXPECT_EQ(relative_gap(gold.fitted, twice, true), 0);
     EXPECT_LT(reflectance_error(find_material("Au-McPeak"), material_from_set(gold.fitted),
                                 gold.measurement),
               1e-12);
     const StudyMetal other = metal_of("Au-McPeak", "Au-Johnson", "gold");
     EXPECT_GT(ratio_deviation(other.measurement, other.literature), 1e-3);
+}
+
+TEST(Claims, TheEnvelopeLeavesTheSampleOut) {
+    StudyMetal metal = metal_of("Au-McPeak", "Au-Johnson", "gold");
+    OpticalConstants below = metal.fitted, above = metal.fitted;
+    below.name = "below";
+    above.name = "above";
+    for (size_t i = 0; i < below.n.size(); ++i) {
+        below.n[i] -= 0.01, below.k[i] -= 0.01;
+        above.n[i] += 0.01, above.k[i] += 0.01;
+    }
+    metal.published = {below, above};
+    EXPECT_EQ(envelope_share(metal).share, 1);
+    EXPECT_EQ(envelope_share(metal).sets, 2);
+    metal.published[1].name = metal.sample_set;
+    EXPECT_EQ(envelope_share(metal).share, 0);
+    metal.fitted.sigma_n.assign(metal.fitted.n.size(), 0.004);
+    metal.fitted.sigma_k = metal.fitted.sigma_n;
+    EXPECT_EQ(envelope_share(metal).share, 1);  // within three standard deviations
+    metal.published.clear();
+    EXPECT_TRUE(std::isnan(envelope_share(metal).share));
 }
 
 TEST(Claims, BetaCancelsInTheMirrorDirection) {
@@ -312,7 +336,7 @@ const Claim& claim(const std::vector<Claim>& claims, const std::string& id) {
 TEST(Claims, VerdictsFollowFromTheNumbers) {
     Study study;
     study.metals = {metal_of("Cu-McPeak", "Cu-Hagemann", "copper"),
-                    metal_of("Ag-McPeak", "Ag-McPeak", "silver"),
+                    metal_of("Ag-McPeak", "Ag-Johnson", "silver"),
                     metal_of("Au-McPeak", "Au-McPeak", "gold"),
                     metal_of("Al-McPeak", "Al-Rakic", "aluminium")};
     const auto with_differences = [&](std::vector<double> differences) {

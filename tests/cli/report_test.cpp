@@ -418,7 +418,7 @@ TEST(StudyPage, SaysWhatItIsAndFetchesNothing) {
                              "id=\"picture-data\">{",
                              "role=\"slider\""})
         EXPECT_TRUE(holds(html, text)) << text;
-    EXPECT_EQ(count(html, "<svg xmlns"), 8u + 3u);
+    EXPECT_EQ(count(html, "<svg xmlns"), 12u + 3u);  // six a metal, three of the figure
     EXPECT_EQ(count(html, "<img"), 1u);
     EXPECT_FALSE(holds(html, ">nan"));
     // Every drawing is well-formed, and their ids do not collide.
