@@ -20,7 +20,7 @@ namespace drude {
 struct PictureBudget {
     int side = 512;                 // pixels shown along the longer side
     size_t stokes_bytes = 3500000;  // S1..S3 of R, G, B
-    size_t spectral_bytes = 3500000;
+    size_t spectral_bytes = 4000000;
 };
 
 class PictureData {

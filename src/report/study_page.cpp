@@ -117,7 +117,8 @@ void section_captured(Page& page, const Study& study) {
     page.paragraph(
         "Ψ and Δ against wavelength at the paper's six angles of incidence: tan Ψ is how much p "
         "light is attenuated against s light by the reflection, Δ how far it falls behind it. "
-        "Points are the simulated measurement, lines the fitted model.");
+        "Points are the simulated measurement, lines the fitted model. Anodised aluminium is in "
+        "figure 6 below.");
     std::vector<std::pair<std::string, std::string>> facts;
     for (const StudyMetal& m : study.metals) facts.emplace_back(m.name, extent(m.measurement));
     if (study.film) facts.emplace_back(study.film->name, extent(study.film->measurement));

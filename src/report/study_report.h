@@ -17,7 +17,7 @@ struct StudyPage {
     std::string sheet_png;         // figure 9; empty: left out
     std::string picture_data;      // JSON (report/picture_data.h); empty: no pairs to look into
     std::string data_description;  // what that holds, for people
-    std::string folder;            // as the reader names it in commands
+    std::string folder;            // its name, for commands
 };
 
 // A self-contained HTML document.

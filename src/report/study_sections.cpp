@@ -170,10 +170,11 @@ void section_figures(Page& page, const StudyPage& content) {
     for (const PaperFigure& figure : content.figures) {
         page.heading(figure.title);
         page.paragraph(figure.caption);
-        page.begin_grid();
-        for (const auto& row : figure.rows)
+        for (const auto& row : figure.rows) {
+            page.begin_grid();
             for (const FigurePanel& panel : row) page.svg(panel.svg, panel.caption);
-        page.end_grid();
+            page.end_grid();
+        }
         page.code(fmt::format("drude report {} --figure {}", content.folder, figure.number));
     }
     page.heading("Figure 9: the pictures");

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -32,7 +33,7 @@ class ReportRun {
     ReportResult everything() {
         Study& study = result_.study;
         StudyPage page;
-        page.folder = options_.folder;
+        page.folder = shown_folder();
         look_at_pictures(true);
         for (int number = first_svg_figure; number <= last_svg_figure; ++number) {
             page.figures.push_back(paper_figure(study, number));
@@ -53,6 +54,13 @@ class ReportRun {
     }
 
   private:
+    // The folder's own name: the page may be read on another machine.
+    std::string shown_folder() const {
+        const auto whole = std::filesystem::absolute(options_.folder).lexically_normal();
+        const auto name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
+        return name.empty() ? "." : name.string();
+    }
+
     // Statistics, previews and figure 9; one pair in memory at a time.
     void look_at_pictures(bool all) {
         FigureSheet sheet;

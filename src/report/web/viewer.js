@@ -295,7 +295,7 @@ const minus = (text) => text.replace('-', '−');
 function shown(v) {
   if (!Number.isFinite(v)) return '–';
   if (v === 0) return '0';
-  return minus(Math.abs(v) < 1e-3 ? v.toExponential(2) : v.toPrecision(4));
+  return minus(Math.abs(v) < 0.01 ? v.toExponential(2) : v.toPrecision(4));
 }
 
 function spectrumDrawing(metal) {
