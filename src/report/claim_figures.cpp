@@ -7,6 +7,9 @@
 #include <limits>
 #include <numbers>
 
+#include "device/ellipsometer_simulation.h"
+#include "fitter/fit.h"
+#include "fitter/fitted_material.h"
 #include "materials/surface.h"
 #include "materials/torrance_sparrow.h"
 
@@ -104,6 +107,19 @@ double reflectance_error(const Material& sample, const Material& fitted,
         worst = std::max(worst, std::abs(predicted - truth) / truth);
     }
     return worst;
+}
+
+HiddenOxide hidden_oxide(const std::string& sample_set, const Measurement& like) {
+    Material sample = material_from_set(clamped(published_set(sample_set)));
+    sample.layers = {{clamped(published_set("Al2O3-Malitson-o")), 3.0}};
+    SimulationSetup setup;
+    setup.angles_deg = like.angles();
+    setup.wavelengths_nm = like.wavelengths();
+    setup.sigma_psi_deg = setup.sigma_delta_deg = 0;
+    const Measurement measurement = simulate_ellipsometer(sample, setup);
+    const FitResult fit = fit_measurement(measurement, {});
+    const Material bare = fitted_material(fit, measurement, "bare", {});
+    return {fit.chi2_reduced(), reflectance_error(sample, bare, measurement)};
 }
 
 double largest_ratio_change_by_beta(const OpticalConstants& set, const Measurement& measurement) {

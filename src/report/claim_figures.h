@@ -35,6 +35,14 @@ double relative_gap(const OpticalConstants& fitted, const OpticalConstants& set,
 double reflectance_error(const Material& sample, const Material& fitted,
                          const Measurement& measurement);
 
+// An oxide too thin to be seen: 3 nm of Al2O3 on the metal of `sample_set`, measured without noise
+// where `like` was, and fitted as a bare surface.
+struct HiddenOxide {
+    double reduced_chi2 = 0;       // at 0.05 and 0.1 degrees
+    double reflectance_error = 0;  // of what that fit predicts
+};
+HiddenOxide hidden_oxide(const std::string& sample_set, const Measurement& like);
+
 // How much tan^2 Psi of the polarised Torrance-Sparrow model, in the mirror direction, differs from
 // that of the smooth metal, relatively and at most: over the four lobes, beta from 0.05 to 1.15 and
 // the angles of `measurement`, at its first, middle and last wavelength.

@@ -27,7 +27,8 @@ PairPictures pair_pictures(const StudyPair& pair, int threads) {
     return pictures;
 }
 
-FigureSheet::FigureSheet() {
+FigureSheet::FigureSheet(const std::string& credit) {
+    sheet_.title = credit;
     sheet_.row_captions = {"fitted", "literature", "log10 difference"};
     sheet_.cells.resize(3);
     sheet_.bars[2] = log_difference_bar();

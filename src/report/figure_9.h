@@ -19,7 +19,8 @@ PairPictures pair_pictures(const StudyPair& pair, int threads);
 // Rows fitted, literature, difference; a column a metal.
 class FigureSheet {
   public:
-    FigureSheet();
+    // `credit`: whose environment the pictures show, written above them; "" for none.
+    explicit FigureSheet(const std::string& credit);
     void add(const std::string& metal, const PairPictures& pictures);
     Picture compose() const { return compose_sheet(sheet_); }
 

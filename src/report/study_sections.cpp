@@ -102,7 +102,7 @@ void section_table_1(Page& page, const Study& study) {
         "Hatched numbers hold no information. In the mirror direction the facet distribution and "
         "the masking multiply r_p and r_s alike and cancel in their ratio: every distribution "
         "gives "
-        "the same n and k, and β ends where the fit was started (ours is shown as start → end). "
+        "the same n and k, and β ends where the fit was started (= start, from 0.2 as from 0.5). "
         "Only a scan of the lobe holds β (drude fit --lobe-scan).");
     page.markup(table_1_markup(table_1(study)));
     page.code("drude fit --like-the-paper");
@@ -135,7 +135,8 @@ void section_pictures(Page& page, const Study& study, const StudyPage& content) 
         page.markup(viewer_markup(study.metals, content.picture_data));
         page.style(web_style("viewer"));
         page.script(web_script("viewer"));
-        page.paragraph(content.data_description);
+        const std::string& credit = study.info.environment_credit;
+        page.paragraph(content.data_description + (credit.empty() ? "" : " " + credit + "."));
     }
     if (!table.rows.empty()) page.table(table);
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 
 #include "report/markup.h"
@@ -23,13 +24,16 @@ std::string no_information(double value, int decimals) {
                                                   : std::string("–"));
 }
 
-// "0.2 → 0.2, 0.8 → 0.8".
+// Where beta ended, from every start: "= start", or "0.2 → 0.31, 0.5 → 0.64".
 std::string trips(const PaperFitBlock& block) {
     std::string text;
-    for (size_t i = 0; i < block.beta_end.size(); ++i)
+    bool moved = false;
+    for (size_t i = 0; i < block.beta_end.size(); ++i) {
+        moved = moved || std::abs(block.beta_end[i] - block.beta_start[i]) > 1e-3;
         text +=
             fmt::format("{}{:g} → {:.3g}", i ? ", " : "", block.beta_start[i], block.beta_end[i]);
-    return text;
+    }
+    return moved ? text : "= start";
 }
 
 std::string rows_of(const Table1Metal& metal) {
@@ -52,10 +56,10 @@ std::string rows_of(const Table1Metal& metal) {
     const FittedPoint& point = metal.fit.psi_delta;
     if (!metal.fit.blocks.empty() && point.identifiable)
         rows += fmt::format(
-            "<tr class=\"ours\"><th scope=\"row\">Ψ and Δ together</th><td></td>"
-            "<td class=\"number\">{:.4f} ± {:.4f}</td><td></td>"
-            "<td class=\"number\">{:.4f} ± {:.4f}</td><td></td>"
-            "<td class=\"number\">not in Ψ, Δ</td></tr>\n",
+            "<tr class=\"ours\"><th scope=\"row\">Ψ and Δ, ours</th>"
+            "<td class=\"number\" colspan=\"2\">{:.4f} ± {:.4f}</td>"
+            "<td class=\"number\" colspan=\"2\">{:.4f} ± {:.4f}</td>"
+            "<td class=\"number\" colspan=\"2\">not in Ψ, Δ</td></tr>\n",
             point.n, point.sigma_n, point.k, point.sigma_k);
     return rows;
 }
@@ -94,6 +98,7 @@ std::vector<Table1Metal> table_1(const Study& study) {
         Table1Metal metal;
         metal.printed = check.metal;
         metal.name = check.metal->name;
+        metal.name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(metal.name[0])));
         metal.check = std::move(check);
         for (const StudyMetal& ours : study.metals) {
             if (paper_metal_of(ours.sample_set) != metal.printed) continue;

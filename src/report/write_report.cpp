@@ -63,7 +63,7 @@ class ReportRun {
 
     // Statistics, previews and figure 9; one pair in memory at a time.
     void look_at_pictures(bool all) {
-        FigureSheet sheet;
+        FigureSheet sheet(result_.study.info.environment_credit);
         for (StudyMetal& metal : result_.study.metals) {
             const StudyPair pair = read_pair(options_.folder, metal);
             const PairPictures pictures = pair_pictures(pair, options_.threads);

@@ -47,7 +47,7 @@ def agrees(shown, value):
     """Within a half float's rounding (2^-11) and that of the digits shown."""
     if shown == "0":
         return abs(value) < 6e-8  # below what a half float holds
-    digits = 5e-3 if "e" in shown else 5e-4
+    digits = 5e-3 if "e" in shown else 5e-4  # 3 or 4 of them
     return abs(number(shown) - value) <= abs(value) * (2 ** -11 + digits) + 6e-8
 
 

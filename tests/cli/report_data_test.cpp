@@ -13,6 +13,7 @@
 #include "report/figure_9.h"
 #include "report/packed_layers.h"
 #include "report/picture_data.h"
+#include "report/table_1.h"
 
 namespace drude {
 namespace {
@@ -285,6 +286,30 @@ StudyMetal metal_of(const std::string& sample, const std::string& literature, co
     return metal;
 }
 
+TEST(Table1, StandsBesideThePapers) {
+    Study study;
+    study.metals = {metal_of("Cu-McPeak", "Cu-Hagemann", "copper")};
+    study.metals[0].name = "<Copper>";
+    const std::vector<Table1Metal> metals = table_1(study);
+    ASSERT_EQ(metals.size(), 6u);
+    const Table1Metal& copper = metals[0];
+    EXPECT_EQ(copper.name, "Copper");
+    ASSERT_EQ(copper.fit.blocks.size(), 5u);
+    EXPECT_TRUE(metals[2].fit.blocks.empty());  // steel: no sample
+    // The measurement has no noise: every block gives the sample's constants at that wavelength.
+    const Index truth = published_set("Cu-McPeak").at(copper.fit.wavelength_nm);
+    for (const PaperFitBlock& block : copper.fit.blocks) {
+        EXPECT_NEAR(block.n, truth.n, 1e-4);
+        EXPECT_NEAR(block.k, truth.k, 1e-4);
+    }
+    const std::string html = table_1_markup(metals);
+    for (const char* text : {"1.030", "0.786", "= start", "class=\"number nothing\"",
+                             "printed values only", "&lt;Copper&gt;"}) {
+        EXPECT_NE(html.find(text), std::string::npos) << text;
+    }
+    EXPECT_EQ(html.find("nan"), std::string::npos);
+}
+
 TEST(Claims, FiguresOfAPerfectFit) {
     const StudyMetal gold = metal_of("Au-McPeak", "Au-McPeak", "gold");
     EXPECT_LT(ratio_deviation(gold.measurement, gold.literature), 1e-9);
@@ -298,6 +323,15 @@ TEST(Claims, FiguresOfAPerfectFit) {
               1e-12);
     const StudyMetal other = metal_of("Au-McPeak", "Au-Johnson", "gold");
     EXPECT_GT(ratio_deviation(other.measurement, other.literature), 1e-3);
+}
+
+// At six angles and 0.05 and 0.1 degrees a bare surface meets aluminium under 3 nm of alumina.
+TEST(Claims, AThinOxideHidesInTheConstants) {
+    const StudyMetal aluminium = metal_of("Al-Rakic", "Al-Rakic", "aluminium");
+    const HiddenOxide oxide = hidden_oxide("Al-Rakic", aluminium.measurement);
+    EXPECT_LT(oxide.reduced_chi2, 0.1);
+    EXPECT_GT(oxide.reflectance_error, 1e-4);
+    EXPECT_LT(oxide.reflectance_error, 0.2);
 }
 
 TEST(Claims, TheEnvelopeLeavesTheSampleOut) {

@@ -291,7 +291,7 @@ function refresh() {
 }
 
 // ---- the read-out -----------------------------------------------------------------------------
-const minus = (text) => text.replace('-', '−');
+const minus = (text) => text.replaceAll('-', '−');
 function shown(v) {
   if (!Number.isFinite(v)) return '–';
   if (v === 0) return '0';
