@@ -13,6 +13,7 @@ Command render_command();
 Command compare_command();
 Command tonemap_command();
 Command reproduce_command();
+Command report_command();
 Command materials_command();
 Command devices_command();
 

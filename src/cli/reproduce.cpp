@@ -7,6 +7,8 @@
 
 #include "base/error.h"
 #include "cli/command_list.h"
+#include "cli/json_output.h"
+#include "cli/report_output.h"
 #include "materials/lobe.h"
 #include "report/study.h"
 
@@ -14,22 +16,32 @@ namespace drude {
 
 namespace {
 
-nlohmann::json to_json(const StudyOptions& options, const StudyResult& result) {
-    nlohmann::json json;
-    json["folder"] = options.folder;
-    json["environment"] = result.info.environment;
-    if (!result.info.environment_credit.empty()) json["credit"] = result.info.environment_credit;
+// The page says these in its own words.
+std::vector<std::string> notes_of(const Study& study) {
+    std::vector<std::string> notes = {
+        "No hardware was measured: each sample is virtual, made of one published set of optical "
+        "constants, and its measurement is simulated.",
+        "Zn-Werner-DFT is a calculation (density functional theory), not a measurement."};
+    notes.insert(notes.end(), study.info.notes.begin(), study.info.notes.end());
+    return notes;
+}
+
+nlohmann::ordered_json to_json(const StudyOptions& options, const ReportResult& report) {
+    const StudyInfo& info = report.study.info;
+    nlohmann::ordered_json json = report_json(options.folder, report);
+    json["environment"] = info.environment;
+    if (!info.environment_credit.empty()) json["credit"] = info.environment_credit;
     json["lobe"] = options.lobe;
     json["masking"] = options.masking;
     json["beta"] = options.beta;
     json["seed"] = options.seed;
-    json["seconds"] = result.info.seconds;
-    json["render_seconds"] = result.render_seconds;
-    json["files"] = result.files;
-    json["notes"] = result.notes;
-    json["materials"] = nlohmann::json::array();
-    for (const StudyMetal& metal : result.metals) {
-        const Log10Difference& d = metal.log10_difference;
+    json["seconds"] = info.seconds;
+    json["render_seconds"] = info.render_seconds;
+    json["notes"] = notes_of(report.study);
+    json["materials"] = nlohmann::ordered_json::array();
+    for (const StudyMetal& metal : report.study.metals) {
+        const PairStatistics& pair = *metal.pair;
+        const Log10Difference& d = pair.log10;
         json["materials"].push_back(
             {{"name", metal.name},
              {"sample_set", metal.sample_set},
@@ -38,23 +50,33 @@ nlohmann::json to_json(const StudyOptions& options, const StudyResult& result) {
              {"dof", metal.dof},
              {"rms_dn", metal.rms_dn},
              {"rms_dk", metal.rms_dk},
+             {"mean_absolute_difference", pair.mean_absolute},
+             {"mean_delta_e", pair.mean_delta_e},
              {"log10_difference",
               {{"mean", d.mean}, {"p50", d.p50}, {"p99", d.p99}, {"max", d.max}}}});
     }
     return json;
 }
 
-void print(const StudyOptions& options, const StudyResult& result) {
-    fmt::print("{:<14}{:<16}{:<18}{:>10}{:>9}{:>9}{:>14}\n", "metal", "virtual sample",
-               "literature", "chi2/dof", "rms dn", "rms dk", "log10 |diff|");
-    for (const StudyMetal& metal : result.metals) {
-        fmt::print("{:<14}{:<16}{:<18}{:>10.3f}{:>9.4f}{:>9.4f}{:>14.3f}\n", metal.name,
+void print(const StudyOptions& options, const ReportResult& report) {
+    fmt::print("{:<14}{:<16}{:<18}{:>10}{:>9}{:>9}{:>14}{:>8}\n", "metal", "virtual sample",
+               "literature", "chi2/dof", "rms dn", "rms dk", "log10 |diff|", "dE");
+    for (const StudyMetal& metal : report.study.metals) {
+        fmt::print("{:<14}{:<16}{:<18}{:>10.3f}{:>9.4f}{:>9.4f}{:>14.3f}{:>8.2f}\n", metal.name,
                    metal.sample_set, metal.literature_set, metal.reduced_chi2, metal.rms_dn,
-                   metal.rms_dk, metal.log10_difference.mean);
+                   metal.rms_dk, metal.pair->log10.mean, metal.pair->mean_delta_e);
     }
-    for (const std::string& note : result.notes) fmt::print("note: {}\n", note);
+    if (const auto& film = report.study.film) {
+        fmt::print("{}: chi2/dof {:.3f} with its film", film->name, film->film_chi2);
+        for (const StudyParameter& p : film->parameters) {
+            fmt::print(", {} {:.6g}{}{}", p.name, p.value, p.unit.empty() ? "" : " ", p.unit);
+        }
+        fmt::print("; {:.4g} as a bare metal\n", film->bare_chi2);
+    }
+    for (const std::string& note : notes_of(report.study)) fmt::print("note: {}\n", note);
+    print_claims(report.claims);
     fmt::print("{}/index.html and {}/comparison.png in {:.1f} s\n", options.folder, options.folder,
-               result.info.seconds);
+               report.study.info.seconds);
 }
 
 }  // namespace
@@ -67,8 +89,11 @@ Command reproduce_command() {
         "Copper, silver, gold, aluminium and a zinc coating, each as a virtual sample made of one "
         "published set of optical constants: measured by a simulated ellipsometer, fitted, and "
         "rendered as a half-sphere twice, with the fitted constants and with another published "
-        "set. Writes EXRs, PNGs, tables and one self-contained page (index.html) to the folder "
-        "-o.\n\n"
+        "set; and anodised aluminium, measured and fitted as a bare metal and with its film. "
+        "Writes EXRs, PNGs, tables, figures 5 to 9 of the paper and one self-contained page "
+        "(index.html) to the folder -o; `drude report DIR` makes the page again without "
+        "rendering. Unless --spectral puts 10 nm layers of S0 to S3 into every picture, a quarter "
+        "as large one beside it (*-spectral.exr) has them, for the page's spectra.\n\n"
         "The environment is a courtyard that the program makes itself; --environment FILE takes a "
         "lat-long picture instead, such as the Uffizi Gallery light probe (courtesy of Paul "
         "Debevec; bring your own copy), which makes the study that of Berger, Weidlich, Wilkie & "
@@ -95,11 +120,16 @@ Command reproduce_command() {
             options->threads = common.threads;
             options->quiet = common.quiet;
             options->command_line = fmt::format("{}", fmt::join(common.command_line, " "));
-            const StudyResult result = run_study(*options);
+            const StudyResult study = run_study(*options);
+            ReportOptions report_options;
+            report_options.folder = options->folder;
+            report_options.threads = options->threads;
+            ReportResult report = write_report(report_options);
+            report.files.insert(report.files.begin(), study.files.begin(), study.files.end());
             if (common.json) {
-                fmt::print("{}\n", to_json(*options, result).dump(2));
+                print_json_document(to_json(*options, report));
             } else {
-                print(*options, result);
+                print(*options, report);
             }
             return 0;
         };

@@ -73,7 +73,7 @@ FitFigure angle_figure(const FitReport& report, const Measurement& curve, bool p
         "{} in degrees against wavelength, one colour an angle of incidence: points as measured "
         "with one standard deviation, lines of the fitted model.",
         symbol);
-    plot.id = psi ? "fit-psi" : "fit-delta";
+    plot.id = report.name + (psi ? " psi" : " delta");
     plot.x = wavelength_axis(report);
     plot.y.label = symbol + " (degrees)";
     int colour = 0;
@@ -120,7 +120,7 @@ FitFigure residual_figure(const FitReport& report, const std::vector<RowResidual
         "Model minus measurement of {} in standard deviations against wavelength, one colour an "
         "angle of incidence, with a band of two standard deviations.",
         symbol);
-    plot.id = fmt::format("fit-residuals-{}", rho2 ? "tan2psi" : psi ? "psi" : "delta");
+    plot.id = fmt::format("{} residuals {}", report.name, rho2 ? "tan2psi" : psi ? "psi" : "delta");
     plot.x = wavelength_axis(report);
     plot.y.label =
         fmt::format("{}, model − data ({})", symbol, report.options.unweighted ? "degrees" : "σ");
@@ -228,7 +228,7 @@ FitFigure constants_figure(const FitReport& report, bool n) {
         "{} against wavelength: fitted, with bands of one and two standard deviations, over what "
         "is published.",
         n ? "n" : "k");
-    plot.id = n ? "fit-n" : "fit-k";
+    plot.id = report.name + (n ? " n" : " k");
     plot.x = wavelength_axis(report);
     plot.y.label = n ? "n" : "k";
     if (report.literature) add_literature(*report.literature, n, &plot);

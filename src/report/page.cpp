@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "report/markup.h"
-#include "report/page_style.h"
+#include "report/web.h"
 
 namespace drude {
 
@@ -115,12 +115,30 @@ void Page::table(const PageTable& table) {
     body_ += "</tbody>\n</table></div>\n";
 }
 
+void Page::details(const std::string& summary, const PageTable& table_inside) {
+    add(body_, "<details><summary>{}</summary>\n", escape_markup(summary));
+    table(table_inside);
+    body_ += "</details>\n";
+}
+
 void Page::code(const std::string& text) {
     add(body_, "<pre><code>{}</code></pre>\n", escape_markup(text));
 }
 
 void Page::svg(const std::string& svg, const std::string& caption) {
     add(body_, "<figure>{}{}</figure>\n", svg, caption_element(caption));
+}
+
+void Page::markup(const std::string& html) {
+    body_ += html;
+}
+
+void Page::style(const std::string& css) {
+    style_ += css;
+}
+
+void Page::script(const std::string& js) {
+    script_ += js;
 }
 
 void Page::picture(const PagePicture& picture, const std::string& caption) {
@@ -166,8 +184,8 @@ std::string Page::html() const {
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
         "img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<header>\n",
-        escape_markup(language_), escape_markup(title_), page_style);
+        "<title>{}</title>\n<style>{}{}</style>\n</head>\n<body>\n<header>\n",
+        escape_markup(language_), escape_markup(title_), web_style("page"), style_);
     if (banner_.empty()) {
         add(out, "<h1>{}</h1>\n", escape_markup(title_));
     } else {
@@ -183,7 +201,7 @@ std::string Page::html() const {
     out += "<main>\n" + body_;
     if (in_grid_) out += "</div>\n";
     if (in_section_) out += "</section>\n";
-    add(out, "</main>\n<script>{}</script>\n</body>\n</html>\n", page_script);
+    add(out, "</main>\n<script>{}{}</script>\n</body>\n</html>\n", web_script("page"), script_);
     return out;
 }
 

@@ -1,7 +1,7 @@
 // A self-contained HTML page: pictures as data URIs, style and script inline, nothing fetched.
 //
 // Light and dark by the reader's preference, narrow screens and print included. Every text is
-// escaped; SVG alone is taken as it is.
+// escaped; SVG and markup() alone are taken as they are.
 #pragma once
 
 #include <string>
@@ -42,9 +42,16 @@ class Page {
     // Terms and what they are, in two columns.
     void facts(const std::vector<std::pair<std::string, std::string>>& items);
     void table(const PageTable& table);
+    // The same, folded away under `summary` until the reader opens it; open in print.
+    void details(const std::string& summary, const PageTable& table);
     // Text in a typewriter face, line breaks kept.
     void code(const std::string& text);
     void svg(const std::string& svg, const std::string& caption);
+    // HTML of the caller's making, taken as it is: nothing of it is escaped.
+    void markup(const std::string& html);
+    // What such markup needs beside what every page has.
+    void style(const std::string& css);
+    void script(const std::string& js);
     // Throws std::invalid_argument where `png` is no PNG, as does comparison().
     void picture(const PagePicture& picture, const std::string& caption);
     // Two pictures of one size, one over the other, and a divider to drag or to move with the arrow
@@ -62,7 +69,7 @@ class Page {
   private:
     void close_grid();
 
-    std::string title_, language_, banner_, body_;
+    std::string title_, language_, banner_, body_, style_, script_;
     std::vector<std::pair<std::string, std::string>> sections_;  // id, heading
     bool in_section_ = false, in_grid_ = false;
     int comparisons_ = 0;

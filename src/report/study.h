@@ -1,12 +1,13 @@
 // The study: five metals measured, fitted, rendered with the fitted and with published constants,
-// and compared (after Berger, Weidlich, Wilkie & Magnor, IEEE CG&A 32(2), 2012).
+// and an anodised surface measured and fitted (after Berger, Weidlich, Wilkie & Magnor, IEEE CG&A
+// 32(2), 2012).
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "report/study_report.h"
+#include "report/study_data.h"
 
 namespace drude {
 
@@ -28,16 +29,15 @@ struct StudyOptions {
 };
 
 struct StudyResult {
-    StudyInfo info;
-    std::vector<StudyMetal> metals;
+    Study study;
     std::vector<std::string> files;  // written, relative to the folder
-    std::vector<std::string> notes;  // what a reader of the figures must know
-    double render_seconds = 0;
 };
 
-// Writes, for every metal, METAL/measurement.csv, fitted.json, literature.json, fitted.exr,
-// literature.exr, fitted.png, literature.png, difference.png, nk.csv; and comparison.png (the
-// sheet), summary.csv and index.html. Throws Error.
+// Writes, for every metal, METAL/measurement.csv, fitted.json, literature.json, fitted.exr and
+// literature.exr, and, without `spectral`, fitted-spectral.exr and literature-spectral.exr of a
+// quarter of the resolution; for the anodised surface measurement.csv, sample.json, fitted.json
+// and bare.json; and study.json. What people look at is made from these by write_report()
+// (study_report.h). Throws Error.
 StudyResult run_study(const StudyOptions& options);
 
 }  // namespace drude

@@ -62,18 +62,23 @@ std::string study_nk_csv(const StudyInfo& info, const StudyMetal& metal) {
     return out;
 }
 
-std::string study_summary_csv(const StudyInfo& info, const std::vector<StudyMetal>& metals) {
+std::string study_summary_csv(const Study& study) {
+    const StudyInfo& info = study.info;
     std::string head =
         header("software", "drude " + info.version) + header("command", info.command_line) +
         header("environment", info.environment) + header("lobe", info.lobe) +
         header("masking", info.masking) + header("beta_rad", format_double(info.beta));
     std::string rows;
-    for (size_t i = 0; i < metals.size(); ++i) {
-        const StudyMetal& m = metals[i];
+    for (size_t i = 0; i < study.metals.size(); ++i) {
+        const StudyMetal& m = study.metals[i];
         const std::string key = fmt::format("metal_{}", i + 1);
         head += header(key, fmt::format("{} (sample {}, literature {})", m.name, m.sample_set,
                                         m.literature_set));
-        const Log10Difference& d = m.log10_difference;
+        if (!m.pair) {
+            head += header(key + "_note", "left out: no pictures");
+            continue;
+        }
+        const Log10Difference& d = m.pair->log10;
         const std::vector<double> values = {static_cast<double>(i + 1),
                                             static_cast<double>(m.seed),
                                             m.reduced_chi2,
@@ -83,7 +88,9 @@ std::string study_summary_csv(const StudyInfo& info, const std::vector<StudyMeta
                                             d.mean,
                                             d.p50,
                                             d.p99,
-                                            d.max};
+                                            d.max,
+                                            m.pair->mean_absolute,
+                                            m.pair->mean_delta_e};
         if (all_finite(values)) {
             rows += row(values);
         } else {
@@ -91,7 +98,8 @@ std::string study_summary_csv(const StudyInfo& info, const std::vector<StudyMeta
         }
     }
     return head +
-           "metal,seed,reduced_chi2,dof,rms_dn,rms_dk,log10_mean,log10_p50,log10_p99,log10_max\n" +
+           "metal,seed,reduced_chi2,dof,rms_dn,rms_dk,log10_mean,log10_p50,log10_p99,log10_max,"
+           "mean_absolute,mean_delta_e\n" +
            rows;
 }
 

@@ -5,11 +5,13 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/error.h"
 #include "base/text_table.h"
 #include "markup_checker.h"
 #include "report/markup.h"
 #include "report/page.h"
 #include "report/study_report.h"
+#include "report/surface_plot.h"
 #include "report/svg_plot.h"
 #include "report/ticks.h"
 
@@ -316,6 +318,7 @@ OpticalConstants flat_set(const std::string& name, const std::string& kind, doub
 StudyMetal copper() {
     StudyMetal metal;
     metal.name = "Copper";
+    metal.folder = "copper";
     metal.sample_set = "Cu-One";
     metal.literature_set = "Cu-Two";
     metal.sample_set_citation = "One et al.";
@@ -347,8 +350,12 @@ StudyMetal copper() {
     metal.dof = 810;
     metal.rms_dn = 0.1234;
     metal.rms_dk = 0.0567;
-    metal.log10_difference = {-1.5, -1.6, -0.5, -0.1};
-    metal.fitted_png = metal.literature_png = metal.difference_png = small_png();
+    PairStatistics pair;
+    pair.log10 = {-1.5, -1.6, -0.5, -0.1};
+    pair.pixels = 100;
+    pair.mean_absolute = 0.03125;
+    pair.mean_delta_e = 1.75;
+    metal.pair = pair;
     return metal;
 }
 
@@ -363,33 +370,67 @@ StudyInfo study_info() {
     info.masking = "v-groove";
     info.beta = 0.011774;
     info.estimator = "psi-delta";
-    info.sheet_png = small_png();
     return info;
 }
 
+Study study_of(std::vector<StudyMetal> metals) {
+    return {study_info(), std::move(metals), {}};
+}
+
 TEST(StudyPage, SaysWhatItIsAndFetchesNothing) {
-    StudyMetal bare = copper();  // nothing but its name: everything else missing
-    bare = StudyMetal{};
+    StudyMetal bare;  // nothing but its name: everything else missing
     bare.name = "Unobtainium";
-    const std::string html = study_page(study_info(), {copper(), bare});
+    const Study study = study_of({copper(), bare});
+    StudyPage content;
+    content.folder = "my folder";
+    content.sheet_png = small_png();
+    content.picture_data = "{\"metals\":[]}";
+    content.data_description = "Embedded are <numbers>.";
+    content.figures = {paper_figure(study, 5)};
+    content.claims = {{"id-1", "4.2", "A <claim>", "A & finding", Verdict::partly, "Because."}};
+    const std::string html = study_page(study, content);
     expect_nothing_fetched(html);
     EXPECT_TRUE(holds(html, "The samples are virtual."));
     EXPECT_TRUE(holds(html, "No hardware was used"));
     EXPECT_TRUE(holds(html, "Cu-One (Copper) is calculated"));
-    for (const char* text :
-         {"Cu-One", "Cu-Two", "seed 17", "1.0123", "0.1234", "0.0567", "-1.60", "drude 9.8.7",
-          "drude reproduce -o &quot;my folder&quot;", "procedural courtyard", "2 min 5 s",
-          "blinn-phong lobe, v-groove masking, β = 0.011774 rad", "A. Author &amp; B. Author",
-          "made by the program", "45°, 70°", "Unobtainium"})
+    for (const char* text : {"Cu-One",
+                             "Cu-Two",
+                             ">17<",
+                             "1.0123",
+                             "0.1234",
+                             "0.0567",
+                             "-1.60",
+                             "drude 9.8.7",
+                             "1.75",
+                             "drude reproduce -o &quot;my folder&quot;",
+                             "procedural courtyard",
+                             "2 min 5 s",
+                             "blinn-phong lobe, v-groove masking, β = 0.011774 rad",
+                             "A. Author &amp; B. Author",
+                             "made by the program",
+                             "45°, 70°",
+                             "Unobtainium",
+                             "A &lt;claim&gt;",
+                             "A &amp; finding",
+                             "partly",
+                             "Embedded are &lt;numbers&gt;.",
+                             "drude report my folder --figure 5",
+                             "id=\"picture-data\">{",
+                             "role=\"slider\""})
         EXPECT_TRUE(holds(html, text)) << text;
-    EXPECT_EQ(count(html, "<svg"), 8u);
-    EXPECT_EQ(count(html, "<img"), 4u);
+    EXPECT_EQ(count(html, "<svg xmlns"), 12u + 3u);  // six a metal, three of the figure
+    EXPECT_EQ(count(html, "<img"), 1u);
     EXPECT_FALSE(holds(html, ">nan"));
     // Every drawing is well-formed, and their ids do not collide.
     std::string all;
-    for (size_t i = html.find("<svg"); i != std::string::npos; i = html.find("<svg", i + 1))
+    for (size_t i = html.find("<svg xmlns"); i != std::string::npos;
+         i = html.find("<svg xmlns", i + 1))
         all += html.substr(i, html.find("</svg>", i) + 6 - i);
     EXPECT_EQ(malformed("<all>" + all + "</all>"), "");
+    // Without what it may lack it is a page all the same.
+    const std::string plain = study_page(study, {});
+    expect_nothing_fetched(plain);
+    EXPECT_FALSE(holds(plain, "id=\"picture-data\"") || holds(plain, "<img"));
 }
 
 TEST(StudyTables, ConstantsReadBackExactly) {
@@ -424,14 +465,62 @@ TEST(StudyTables, SaysWhereTheLiteratureEnds) {
 TEST(StudyTables, SummaryHasARowAMetal) {
     StudyMetal broken = copper();
     broken.name = "Silver\nand more";
-    broken.log10_difference.max = -std::numeric_limits<double>::infinity();
+    broken.pair->log10.max = -std::numeric_limits<double>::infinity();
+    StudyMetal unseen = copper();
+    unseen.pair.reset();
     const TextTable table =
-        parse_text_table(study_summary_csv(study_info(), {copper(), broken}), "summary.csv");
+        parse_text_table(study_summary_csv(study_of({copper(), broken, unseen})), "summary.csv");
     ASSERT_EQ(table.rows.size(), 1u);
-    const std::vector<double> row = {1, 17, 1.0123, 810, 0.1234, 0.0567, -1.5, -1.6, -0.5, -0.1};
+    const std::vector<double> row = {1,    17,   1.0123, 810,  0.1234,  0.0567,
+                                     -1.5, -1.6, -0.5,   -0.1, 0.03125, 1.75};
     EXPECT_EQ(table.rows[0].values, row);
     EXPECT_EQ(table.header_value("metal_1"), "Copper (sample Cu-One, literature Cu-Two)");
-    EXPECT_NE(table.header_value("metal_2_note").find("left out"), std::string::npos);
+    EXPECT_NE(table.header_value("metal_2_note").find("not finite"), std::string::npos);
+    EXPECT_NE(table.header_value("metal_3_note").find("no pictures"), std::string::npos);
+}
+
+TEST(PaperFigures, AreWellFormedDocuments) {
+    const Study study = study_of({copper()});
+    const PaperFigure figure = paper_figure(study, 5);
+    EXPECT_EQ(figure.number, 5);
+    ASSERT_EQ(figure.rows.size(), 1u);
+    EXPECT_EQ(figure.rows[0].size(), 3u);
+    std::string document = figure_document(figure);
+    EXPECT_TRUE(holds(document, "<title id=\"figure-title\">Figure 5: Copper</title>"));
+    EXPECT_TRUE(holds(document, "prefers-color-scheme:dark"));
+    const size_t style = document.find("<style>"), end = document.find("</style>");
+    document.erase(style, end + 8 - style);  // its braces and quotes are no XML text
+    EXPECT_EQ(malformed(document), "");
+    EXPECT_FALSE(holds(document, "nan"));
+    EXPECT_THROW(paper_figure(study, 6), Error);  // no film
+    EXPECT_THROW(paper_figure(study, 7), Error);  // no gold
+    EXPECT_THROW(paper_figure(study, 4), Error);
+}
+
+TEST(SurfacePlot, PutsPointsAboveTheGrid) {
+    SurfacePlot plot;
+    plot.title = "a & b";
+    plot.grid_x = {0, 1, 2};
+    plot.grid_y = {0, 1};
+    plot.grid_z = {0, 0, 0, 0, 0, 0};
+    plot.lines_x = {1};
+    plot.lines_y = {0, 1};
+    plot.z.low = 0;
+    plot.z.high = 1;
+    plot.points = {{1, 0, 0, std::nan("")}, {1, 0, 1, 0}, {5, 0, 1, 0}};
+    const std::string svg = surface_plot(plot);
+    EXPECT_EQ(malformed(svg), "");
+    // Two dots (the third lies outside), the second straight above the first.
+    const size_t end = svg.find("stroke-width=\"4\"");
+    ASSERT_NE(end, std::string::npos);
+    const size_t begin = svg.rfind("d=\"", end);
+    double x[2], y[2];
+    ASSERT_EQ(std::sscanf(svg.c_str() + begin, "d=\"M%lf %lfh0M%lf %lfh0\"", x, y, x + 1, y + 1),
+              4);
+    EXPECT_EQ(x[0], x[1]);
+    EXPECT_LT(y[1], y[0] - 50);
+    plot.grid_z.pop_back();
+    EXPECT_THROW(surface_plot(plot), std::invalid_argument);
 }
 
 }  // namespace

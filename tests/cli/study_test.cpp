@@ -49,8 +49,16 @@ void expect_study(const std::string& folder) {
             EXPECT_TRUE(std::filesystem::exists(folder + "/" + metal + "/" + file))
                 << metal << file;
         }
-        expect_physical(folder + "/" + metal + "/fitted.exr");
-        expect_physical(folder + "/" + metal + "/literature.exr");
+        // Without --spectral the layers are in smaller pictures.
+        const std::string beside = folder + "/" + metal + "/";
+        const bool small = std::filesystem::exists(beside + "fitted-spectral.exr");
+        expect_physical(beside + (small ? "fitted-spectral.exr" : "fitted.exr"));
+        expect_physical(beside + (small ? "literature-spectral.exr" : "literature.exr"));
+    }
+    for (const char* file :
+         {"study.json", "figure-5.svg", "figure-6.svg", "figure-7.svg", "figure-8.svg",
+          "anodised-aluminium/measurement.csv", "anodised-aluminium/fitted.json"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder + "/" + file)) << file;
     }
     const std::string page = read_text(folder + "/index.html");
     EXPECT_NE(page.find("No hardware was used"), std::string::npos);
@@ -73,6 +81,51 @@ TEST(Study, IsCompleteAndPhysicalInTheCourtyard) {
         EXPECT_LT(std::abs(material.at("chi2_reduced").get<double>() - 1), 0.2);
         EXPECT_LT(material.at("log10_difference").at("mean").get<double>(), 0);
     }
+    EXPECT_GE(json.at("claims").size(), 12u);
+}
+
+// The page comes from the folder alone: the same bytes again, and one figure by itself.
+TEST(Study, IsReportedAgainWithoutRendering) {
+    const TemporaryFolder folder;
+    const ProgramRun study = run_drude(folder, "reproduce -o study --resolution 24 --spp 16 -q");
+    ASSERT_EQ(study.status, 0) << study.err;
+    expect_study(folder.file("study"));
+    const std::string page = read_text(folder.file("study/index.html"));
+    const std::string figure = read_text(folder.file("study/figure-6.svg"));
+    std::filesystem::remove(folder.file("study/index.html"));
+    std::filesystem::remove(folder.file("study/figure-6.svg"));
+    const ProgramRun one = run_drude(folder, "report study --figure 6");
+    ASSERT_EQ(one.status, 0) << one.err;
+    EXPECT_EQ(read_text(folder.file("study/figure-6.svg")), figure);
+    EXPECT_FALSE(std::filesystem::exists(folder.file("study/index.html")));
+    const ProgramRun again = run_drude(folder, "report study --json");
+    ASSERT_EQ(again.status, 0) << again.err;
+    EXPECT_EQ(read_text(folder.file("study/index.html")), page);
+    const nlohmann::json json = nlohmann::json::parse(again.out);
+    EXPECT_EQ(json.at("page_bytes").get<size_t>(), page.size());
+
+    // What is wrong with a folder is said with its place.
+    const auto refuse = [&](const std::string& arguments, const char* part) {
+        const ProgramRun run = run_drude(folder, arguments);
+        EXPECT_EQ(run.status, 2) << run.err;
+        EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+    };
+    refuse("report study/copper", "holds no study");
+    refuse("report study --figure 3", "expected one of 5 to 9");
+    refuse("report study --figure 0", "expected 5 to 9");
+    std::string record = read_text(folder.file("study/study.json"));
+    const size_t at = record.find("Cu-Hagemann");
+    ASSERT_NE(at, std::string::npos);
+    write_text(folder.file("study/study.json"), std::string(record).replace(at, 11, "Cu-Hageman"));
+    refuse("report study", "Cu-Hagemann");
+    write_text(folder.file("study/study.json"),
+               std::string(record).replace(record.find("\"copper\""), 8, "\"../etc\""));
+    refuse("report study", "study.json:");
+    write_text(folder.file("study/study.json"), record.substr(0, record.size() / 2));
+    refuse("report study", "study.json:");
+    write_text(folder.file("study/study.json"), record);
+    std::filesystem::remove(folder.file("study/gold/literature.exr"));
+    refuse("report study", "gold/literature.exr");
 }
 
 TEST(Study, CarriesTheCreditOfTheUffiziProbe) {

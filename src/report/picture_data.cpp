@@ -1,0 +1,261 @@
+#include "report/picture_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/numbers.h"
+#include "image/colour_map.h"
+#include "image/difference.h"
+#include "image/srgb.h"
+#include "report/markup.h"
+#include "report/packed_layers.h"
+
+namespace drude {
+
+namespace {
+
+// "S0.550,000000nm": 550; otherwise nothing.
+std::optional<double> layer_wavelength(const std::string& name) {
+    if (name.size() < 6 || name.rfind("S0.", 0) != 0) return {};
+    if (name.compare(name.size() - 2, 2, "nm") != 0) return {};
+    std::string number = name.substr(3, name.size() - 5);
+    std::replace(number.begin(), number.end(), ',', '.');
+    return parse_double(number);
+}
+
+size_t channel_index(const Image& image, const std::string& name) {
+    return static_cast<size_t>(&image.at(name, "the picture") - image.channels.data());
+}
+
+// 256 colours of a map as "rrggbb...".
+std::string map_text(ColourMap map) {
+    std::string text;
+    for (int i = 0; i < 256; ++i) {
+        for (const float linear : map_colour(map, i / 255.0)) {
+            text += fmt::format("{:02x}", srgb_byte(linear));
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+PictureData::PictureData(const PictureBudget& budget) : budget_(budget) {}
+
+void PictureData::Grid::add(Layers layers) {
+    own.resize(pixels(), 0);
+    if (!pictures.empty()) {
+        for (size_t row = 0; row < 4; ++row) {
+            const std::vector<uint16_t>& first = pictures.front().values[row];
+            for (size_t i = 0; i < first.size(); ++i) {
+                if (first[i] != layers.values[row][i]) own[i % pixels()] = 1;
+            }
+        }
+    }
+    pictures.push_back(std::move(layers));
+}
+
+std::vector<size_t> PictureData::Grid::chosen(char kind, int step) const {
+    std::vector<size_t> indices;
+    for (int y = 0; y < height; y += step) {
+        for (int x = 0; x < width; x += step) {
+            const size_t i = static_cast<size_t>(y) * width + x;
+            if (own[i] == kind) indices.push_back(i);
+        }
+    }
+    return indices;
+}
+
+size_t PictureData::Grid::bytes(int step, int first_row) const {
+    // Rows of zeros cost nothing.
+    const auto kept = [&](const Layers& picture) {
+        size_t rows = 0;
+        for (size_t row = first_row; row < 4; ++row) {
+            const std::vector<uint16_t>& v = picture.values[row];
+            rows += std::any_of(v.begin(), v.end(), [](uint16_t h) { return (h & 0x7fffu) != 0; });
+        }
+        return rows;
+    };
+    size_t rows = 0;
+    for (const Layers& picture : pictures) rows += kept(picture);
+    return 2 * planes *
+           (rows * chosen(1, step).size() + kept(pictures.front()) * chosen(0, step).size());
+}
+
+int PictureData::Grid::fitting_step(size_t budget, int first_row) const {
+    int step = 1;
+    while (bytes(step, first_row) > budget && step < std::max(width, height)) ++step;
+    return step;
+}
+
+std::string PictureData::Grid::packed(size_t picture, char kind, int first, int rest) const {
+    std::string text = "[";
+    for (size_t row = 0; row < 4; ++row) {
+        const std::vector<size_t> indices = chosen(kind, row == 0 ? first : rest);
+        std::vector<uint16_t> halves;
+        halves.reserve(planes * indices.size());
+        for (size_t plane = 0; plane < planes; ++plane) {
+            const uint16_t* values = pictures[picture].values[row].data() + plane * pixels();
+            for (const size_t i : indices) halves.push_back(values[i]);
+        }
+        text += fmt::format("{}\"{}\"", row ? "," : "", pack_halves(halves));
+    }
+    return text + "]";
+}
+
+PictureData::Layers PictureData::layers_of(const Image& image,
+                                           const std::vector<std::array<size_t, 4>>& planes,
+                                           int step) {
+    Layers layers;
+    for (size_t row = 0; row < 4; ++row) {
+        for (const std::array<size_t, 4>& plane : planes) {
+            const std::vector<float>& data = image.channels[plane[row]].data;
+            for (int y = 0; y < image.height; y += step) {
+                for (int x = 0; x < image.width; x += step) {
+                    layers.values[row].push_back(
+                        half_from_float(data[static_cast<size_t>(y) * image.width + x]));
+                }
+            }
+        }
+    }
+    return layers;
+}
+
+void PictureData::add_spectra(const StudyPair& pair) {
+    const auto planes_of = [](const Image& image, std::vector<double>* wavelengths) {
+        std::vector<std::pair<double, std::string>> found;
+        for (const Channel& channel : image.channels) {
+            if (const auto nm = layer_wavelength(channel.name)) {
+                found.emplace_back(*nm, channel.name.substr(3));
+            }
+        }
+        std::sort(found.begin(), found.end());
+        std::vector<std::array<size_t, 4>> planes;
+        for (const auto& layer : found) {
+            wavelengths->push_back(layer.first);
+            planes.emplace_back();
+            for (size_t row = 0; row < 4; ++row) {
+                planes.back()[row] = channel_index(image, fmt::format("S{}.{}", row, layer.second));
+            }
+        }
+        return planes;
+    };
+    for (const Image* image : {&pair.fitted_spectral, &pair.literature_spectral}) {
+        std::vector<double> wavelengths;
+        const auto planes = planes_of(*image, &wavelengths);
+        // A quarter of the shown resolution is plenty for a map; the numbers stay single pixels'.
+        const int longer = std::max(image->width, image->height);
+        const int step = std::max(1, 4 * longer / std::max(1, budget_.side));
+        if (spectral_.pictures.empty()) {
+            wavelengths_ = wavelengths;
+            spectral_.planes = planes.size();
+            spectral_step_ = step;
+            spectral_is_smaller_ = pair.spectral_is_smaller;
+            spectral_.width = (image->width + step - 1) / step;
+            spectral_.height = (image->height + step - 1) / step;
+        }
+        Layers layers = layers_of(*image, planes, spectral_step_);
+        if (wavelengths != wavelengths_ ||
+            layers.values[0].size() != spectral_.planes * spectral_.pixels()) {
+            user_error(
+                "the spectral layers of the study's pictures differ; render all of them "
+                "with one resolution and the same layers");
+        }
+        spectral_.add(std::move(layers));
+    }
+}
+
+void PictureData::add(const StudyMetal& metal, const StudyPair& pair) {
+    const Image& first = pair.fitted;
+    if (colour_.pictures.empty()) {
+        exr_width_ = first.width;
+        exr_height_ = first.height;
+        const int longer = std::max(first.width, first.height);
+        step_ = (longer + budget_.side - 1) / budget_.side;
+        colour_.planes = 3;
+        colour_.width = (first.width + step_ - 1) / step_;
+        colour_.height = (first.height + step_ - 1) / step_;
+    } else if (first.width != exr_width_ || first.height != exr_height_) {
+        user_error(
+            "{}: its pictures have {} x {} pixels, those before it {} x {}; render all with "
+            "one resolution",
+            metal.folder, first.width, first.height, exr_width_, exr_height_);
+    }
+    for (const Image* image : {&pair.fitted, &pair.literature}) {
+        std::vector<std::array<size_t, 4>> planes(3);
+        for (size_t c = 0; c < 3; ++c) {
+            for (size_t row = 0; row < 4; ++row) {
+                planes[c][row] = channel_index(*image, fmt::format("S{}.{}", row, "RGB"[c]));
+            }
+        }
+        colour_.add(layers_of(*image, planes, step_));
+    }
+    const bool spectra = pair.fitted_spectral.width > 0;
+    if (spectra != !spectral_.pictures.empty() && colour_.pictures.size() > 2) {
+        user_error("{}: spectral layers are in some of the study's pictures only", metal.folder);
+    }
+    if (spectra) add_spectra(pair);
+    metals_ += (metals_.empty() ? "" : ",") + fmt::format("\"{}\"", identifier(metal.folder));
+}
+
+std::string PictureData::json() const {
+    if (colour_.pictures.empty()) return "";
+    const auto group = [](const Grid& grid, int first, int rest) {
+        std::string text = fmt::format(
+            "\"width\":{},\"height\":{},\"planes\":{},\"first\":{},\"rest\":{},\"own\":\"{}\",\n"
+            "\"shared\":{},\n\"pictures\":[\n",
+            grid.width, grid.height, grid.planes, first, rest,
+            pack_bytes({grid.own.data(), grid.own.size()}), grid.packed(0, 0, first, rest));
+        for (size_t i = 0; i < grid.pictures.size(); ++i) {
+            text += grid.packed(i, 1, first, rest) + (i + 1 < grid.pictures.size() ? ",\n" : "\n");
+        }
+        return text + "]";
+    };
+    std::string text =
+        fmt::format("{{\"step\":{},\"metals\":[{}],\n\"colour\":{{{}}}", step_, metals_,
+                    group(colour_, 1, colour_.fitting_step(budget_.stokes_bytes, 1)));
+    if (!spectral_.pictures.empty()) {
+        std::string nm;
+        for (const double w : wavelengths_) nm += (nm.empty() ? "" : ",") + format_double(w);
+        const int step = spectral_.fitting_step(budget_.spectral_bytes, 0);
+        text += fmt::format(",\n\"spectral\":{{\"smaller\":{},\"step\":{},\"nm\":[{}],{}}}",
+                            spectral_is_smaller_, spectral_step_, nm, group(spectral_, step, step));
+    }
+    const ColourBar log_bar = log_difference_bar();
+    return text + fmt::format(",\n\"log\":[{},{}],\"sequential\":\"{}\",\"diverging\":\"{}\"}}\n",
+                              log_bar.low, log_bar.high, map_text(ColourMap::sequential),
+                              map_text(ColourMap::diverging));
+}
+
+std::string PictureData::description() const {
+    if (colour_.pictures.empty()) return "";
+    const auto every = [](int step) {
+        return step == 1 ? std::string("every pixel")
+                         : fmt::format("every {}{} pixel of every {}{} row", step,
+                                       step == 2   ? "nd"
+                                       : step == 3 ? "rd"
+                                                   : "th",
+                                       step,
+                                       step == 2   ? "nd"
+                                       : step == 3 ? "rd"
+                                                   : "th");
+    };
+    const int rest = colour_.fitting_step(budget_.stokes_bytes, 1);
+    std::string text = fmt::format(
+        "Embedded are the numbers of the EXR files beside this page, rounded to half floats (a "
+        "relative error of at most 0.05 %), single pixels and never averages: S0 in R, G, B of {}, "
+        "S1 to S3 of {}",
+        every(step_), every(step_ * rest));
+    if (spectral_.pictures.empty()) return text + "; no spectral layers.";
+    const int step = spectral_.fitting_step(budget_.spectral_bytes, 0) * spectral_step_;
+    return text + fmt::format(", and S0 to S3 at {} wavelengths of {}{}.", wavelengths_.size(),
+                              every(step),
+                              spectral_is_smaller_
+                                  ? " of the smaller pictures *-spectral.exr, which show the same "
+                                    "scene at a quarter of the resolution"
+                                  : "");
+}
+
+}  // namespace drude
