@@ -97,6 +97,66 @@ void check_same_names(const Image& a, const Image& b, const std::string& name_a,
         name_a, list(only_a), name_b, list(only_b));
 }
 
+void check_scenes(const Image& a, const Image& b, const std::string& name_a,
+                  const std::string& name_b) {
+    const std::string scene_a = a.text("sceneHash"), scene_b = b.text("sceneHash");
+    if (scene_a.empty() || scene_b.empty() || scene_a == scene_b) return;
+    user_error(
+        "{} and {} are pictures of different scenes (sceneHash {} and {}); --any-scene compares "
+        "them all the same",
+        name_a, name_b, scene_a.substr(0, 12), scene_b.substr(0, 12));
+}
+
+// The wavelengths of the layers of S0, ascending.
+std::vector<double> wavelengths_of(const Image& image) {
+    std::vector<double> nm;
+    for (const Channel& channel : image.channels) {
+        if (channel.name.rfind("S0.", 0) != 0) continue;
+        if (const std::optional<double> value = layer_wavelength(channel.name)) {
+            nm.push_back(*value);
+        }
+    }
+    std::sort(nm.begin(), nm.end());
+    return nm;
+}
+
+// A picture may be compared in its colours whatever its layers are: this is for comparisons of the
+// layers themselves.
+void check_wavelengths(const Image& a, const Image& b, const std::string& name_a,
+                       const std::string& name_b) {
+    const std::vector<double> in_a = wavelengths_of(a), in_b = wavelengths_of(b);
+    if (in_a == in_b || in_a.empty() || in_b.empty()) return;
+    const auto range = [](const std::vector<double>& nm) {
+        return fmt::format("{} from {} to {} nm", nm.size(), format_double(nm.front()),
+                           format_double(nm.back()));
+    };
+    user_error(
+        "the wavelengths of the spectral layers differ: {} has {}, {} has {}; render both alike, "
+        "or compare R,G,B",
+        name_a, range(in_a), name_b, range(in_b));
+}
+
+// S0 to S3 of both: spectral layers where both have the same ones, otherwise R, G, B.
+std::vector<std::vector<std::string>> stokes_channels(const Image& a, const Image& b) {
+    std::vector<std::string> suffixes;
+    if (wavelengths_of(a) == wavelengths_of(b)) {
+        for (const Channel& channel : a.channels) {
+            if (channel.name.rfind("S0.", 0) == 0 && layer_wavelength(channel.name)) {
+                suffixes.push_back(channel.name.substr(3));
+            }
+        }
+    }
+    if (suffixes.empty()) suffixes = {"R", "G", "B"};
+    std::vector<std::vector<std::string>> names(4);
+    for (size_t i = 0; i < 4; ++i) {
+        for (const std::string& suffix : suffixes) {
+            names[i].push_back(fmt::format("S{}.{}", i, suffix));
+            if (!a.find(names[i].back()) || !b.find(names[i].back())) return {};
+        }
+    }
+    return names;
+}
+
 std::vector<std::string> default_channels(const Image& a, const Image& b) {
     const auto has_rgb = [](const Image& image) {
         return image.find("R") && image.find("G") && image.find("B");
@@ -222,6 +282,11 @@ std::vector<std::string> parse_channels(const std::string& list, const Image& im
 Comparison compare_images(const Image& a, const Image& b, const std::string& name_a,
                           const std::string& name_b, const CompareOptions& options) {
     check_size(a, b, name_a, name_b);
+    if (!options.any_scene) check_scenes(a, b, name_a, name_b);
+    const bool of_layers =
+        std::any_of(options.channels.begin(), options.channels.end(),
+                    [](const std::string& name) { return layer_wavelength(name).has_value(); });
+    if (options.exact || of_layers) check_wavelengths(a, b, name_a, name_b);
     if (options.exact) check_same_names(a, b, name_a, name_b);
     Comparison result;
     result.channels = options.channels;
@@ -252,6 +317,20 @@ Comparison compare_images(const Image& a, const Image& b, const std::string& nam
         all.add(totals);
     }
     result.all = all.figures();
+    for (const std::vector<std::string>& names : stokes_channels(a, b)) {
+        Totals totals;
+        for (const std::string& name : names) {
+            const Channel& in_a = a.at(name, name_a);
+            const Channel& in_b = b.at(name, name_b);
+            for (size_t i = 0; i < a.pixels(); ++i) {
+                const double va = static_cast<double>(in_a.data[i]);
+                const double vb = static_cast<double>(in_b.data[i]);
+                if (std::isfinite(va) && std::isfinite(vb)) totals.add(va, vb);
+            }
+        }
+        result.stokes.push_back(totals.figures());
+    }
+    result.polarisation = polarisation_errors(a, b);
     decide(a, b, name_a, name_b, options, result);
     return result;
 }

@@ -72,6 +72,11 @@ line-height:2.05rem;box-shadow:0 1px 6px rgba(0,0,0,.5)}
 .compare input{position:absolute;inset:0;width:100%;height:100%;margin:0;opacity:0;
 cursor:ew-resize}
 .compare:has(input:focus-visible){outline:3px solid var(--accent);outline-offset:3px}
+.swap{position:relative}
+.swap .over{position:absolute;inset:0}
+.swap:hover .over,.swap:focus .over{visibility:hidden}
+.swap:focus-visible{outline:3px solid var(--accent);outline-offset:3px}
+.swap img{image-rendering:pixelated}
 footer{padding-top:1rem;padding-bottom:2.5rem;color:var(--soft);font-size:.88rem;
 border-top:1px solid var(--line)}
 @media print{:root{color-scheme:light;--ground:#fff;--card:#fff;--ink:#000;--soft:#444;
@@ -82,7 +87,7 @@ nav{display:none}header{padding-top:0}body{font-size:10.5pt}
 section{margin:1.2rem 0}h2,h3{break-after:avoid}tr{break-inside:avoid}
 .grid{grid-template-columns:1fr 1fr}
 .compare{display:flex;gap:.4rem}.compare .bottom,.compare .top{position:relative;inset:auto;
-clip-path:none;width:50%}.compare .bar,.compare input{display:none}.compare .top{order:-1}}
+clip-path:none;width:50%}.compare .bar,.compare input{display:none}.swap .over{position:static}.compare .top{order:-1}}
 @media (prefers-reduced-motion:reduce){html{scroll-behavior:auto}}
 )css";
 
