@@ -63,16 +63,12 @@ std::string render_command(const std::string& scene, const ReferenceCase& one, i
     return command + " -o " + quoted(output);
 }
 
-// Bias that the means could have revealed, as a fraction of the mean S0 of the same colour.
+// The bias of a mean of S0 (or R, G, B) that the pair could have revealed, as a fraction of it.
 double relative_bias(const NoiseTest& noise) {
     double largest = 0;
     for (const MeanTest& mean : noise.means) {
-        double s0 = 0;
-        for (const MeanTest& other : noise.means) {
-            const bool is_s0 = other.channel.size() == 1 || other.channel.rfind("S0.", 0) == 0;
-            if (is_s0 && other.channel.back() == mean.channel.back()) s0 = other.reference;
-        }
-        largest = std::max(largest, mean.detectable_bias / std::abs(s0));
+        const bool is_s0 = mean.channel.size() == 1 || mean.channel.rfind("S0.", 0) == 0;
+        if (is_s0) largest = std::max(largest, mean.detectable_bias / std::abs(mean.reference));
     }
     return largest;
 }

@@ -43,7 +43,7 @@ struct CaseResult {
     Cause cause = Cause::user;   // of an error
     bool scene_changed = false;  // its hash is not the one that the reference was rendered from
     uint64_t seed = 0;           // of the new picture
-    double detectable_bias = 0;  // as a fraction of the mean S0 of the same colour
+    double detectable_bias = 0;  // of a mean of S0, as a fraction of it
     double seconds = 0;
     std::optional<Comparison> comparison;
     Image rendered, reference;  // without pixels where there is none
