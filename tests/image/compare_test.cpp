@@ -123,6 +123,56 @@ TEST(Compare, SizesAndChannelsAreDistinctErrors) {
     EXPECT_NE(channel.find("'B'"), std::string::npos) << channel;
 }
 
+TEST(Compare, PicturesOfDifferentScenesAreAnErrorUnlessMeant) {
+    Image a = picture(2, 2, {"R", "G", "B"}, 0.5F), b = a;
+    a.attributes["sceneHash"] = std::string("aaaaaaaaaaaaaaaa");
+    EXPECT_TRUE(compare(a, b).same);  // one of them does not say
+    b.attributes["sceneHash"] = std::string("bbbbbbbbbbbbbbbb");
+    const std::string message = message_of([&] { compare(a, b); });
+    EXPECT_NE(message.find("different scenes"), std::string::npos) << message;
+    EXPECT_NE(message.find("--any-scene"), std::string::npos) << message;
+    CompareOptions any;
+    any.any_scene = true;
+    EXPECT_TRUE(compare(a, b, any).same);
+}
+
+TEST(Compare, LayersOfDifferentWavelengthsAreAnErrorOfTheirOwn) {
+    const Image a = picture(2, 2, {"R", "G", "B", "S0.400,000000nm", "S0.500,000000nm"}, 0.5F);
+    const Image b = picture(2, 2, {"R", "G", "B", "S0.400,000000nm", "S0.600,000000nm"}, 0.5F);
+    EXPECT_TRUE(compare(a, b).same);  // in their colours
+    CompareOptions layers, exact;
+    layers.channels = {"S0.400,000000nm"};
+    exact.exact = true;
+    for (const CompareOptions& options : {layers, exact}) {
+        const std::string message = message_of([&] { compare(a, b, options); });
+        EXPECT_NE(message.find("wavelengths"), std::string::npos) << message;
+        EXPECT_NE(message.find("2 from 400 to 600 nm"), std::string::npos) << message;
+    }
+}
+
+std::vector<std::string> stokes_names() {
+    std::vector<std::string> names;
+    for (const char* layer : {"S0.", "S1.", "S2.", "S3."}) {
+        for (const char* colour : {"R", "G", "B"}) names.push_back(std::string(layer) + colour);
+    }
+    return names;
+}
+
+TEST(Compare, EachStokesComponentHasItsErrors) {
+    std::vector<std::string> names = stokes_names();
+    names.insert(names.end(), {"R", "G", "B"});
+    const Image a = picture(3, 2, names, 0.5F);
+    Image b = a;
+    for (float& value : b.find("S2.G")->data) value = 0.2F;
+    const Comparison result = compare(a, b);
+    ASSERT_EQ(result.stokes.size(), 4U);
+    EXPECT_EQ(result.stokes[1].rmse, 0.0);
+    EXPECT_NEAR(result.stokes[2].rmse, 0.3 / std::sqrt(3.0), 1e-7);
+    EXPECT_NEAR(result.stokes[2].mean_error, 0.1, 1e-7);
+    EXPECT_TRUE(compare(picture(2, 2, {"R", "G", "B"}, 0), picture(2, 2, {"R", "G", "B"}, 0))
+                    .stokes.empty());
+}
+
 TEST(Compare, ToleranceIsTheLargerOfAbsoluteAndRelative) {
     Image a = picture(10, 10, {"Y"}, 100.0F), b = a;
     b.channels[0].data[0] = 100.5F;
@@ -274,6 +324,89 @@ TEST(NoiseTest, OneWrongPixelAndOneWrongBlockAreFound) {
     EXPECT_FALSE(several.same);
     EXPECT_LT(several.noise->p_blocks, 1e-6);
     EXPECT_LT(several.noise->p_blocks, several.noise->p_pixels);
+}
+
+TEST(NoiseTest, TheFindingNamesWhatIsOff) {
+    const Image reference = noisy(1, 40, 24, 16, 0);
+    Image pixel = noisy(2, 40, 24, 16, 0);
+    pixel.find("G")->data[9 * 40 + 33] += 3.0F;
+    const Finding one = compare(pixel, reference).noise->worst;
+    EXPECT_EQ(one.family, TestFamily::pixel);
+    EXPECT_EQ(one.channel, "G");
+    EXPECT_EQ(one.x, 33);
+    EXPECT_EQ(one.y, 9);
+    EXPECT_GT(one.z, 8.0);
+    Image block = noisy(3, 40, 24, 16, 0);
+    for (size_t y = 16; y < 24; ++y) {
+        for (size_t x = 8; x < 16; ++x) block.find("B")->data[y * 40 + x] -= 0.12F;
+    }
+    const Finding several = compare(block, reference).noise->worst;
+    EXPECT_EQ(several.family, TestFamily::block);
+    EXPECT_EQ(several.channel, "B");
+    EXPECT_EQ(several.x, 8);
+    EXPECT_EQ(several.y, 16);
+    EXPECT_LT(several.z, -6.0);
+    const Comparison biased = compare(noisy(4, 40, 24, 16, 0.02), reference);
+    EXPECT_EQ(biased.noise->worst.family, TestFamily::mean);
+    ASSERT_EQ(biased.noise->means.size(), 3U);
+    for (const MeanTest& mean : biased.noise->means) {
+        EXPECT_NEAR(mean.bias, 0.02, 5 * mean.standard_error);
+        EXPECT_LT(mean.detectable_bias, 0.02);
+        EXPECT_NEAR(mean.reference, 0.5, 0.05);
+    }
+}
+
+// Batches that are nearly always dark and seldom bright, as where a small lamp is found by chance:
+// the variance of few batches is too small just where their mean is too low.
+Image sparse(unsigned seed, int batches) {
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> uniform;
+    Image image = picture(32, 32, {"Y", "variance.Y"}, 0.0F);
+    image.attributes["batches"] = batches;
+    image.attributes["batchSize"] = 16;
+    for (size_t i = 0; i < image.pixels(); ++i) {
+        double sum = 0.0, square = 0.0;
+        for (int k = 0; k < batches; ++k) {
+            const double value =
+                1.0 + 0.01 * uniform(generator) + (uniform(generator) < 0.05 ? 1.0 : 0.0);
+            sum += value;
+            square += value * value;
+        }
+        const double mean = sum / batches;
+        image.channels[0].data[i] = static_cast<float>(mean);
+        image.channels[1].data[i] =
+            static_cast<float>((square / batches - mean * mean) / (batches - 1.0));
+    }
+    return image;
+}
+
+TEST(NoiseTest, SkewedNoiseIsNoDifferenceWhereBatchesAreAlike) {
+    const Image reference = sparse(1, 4096);
+    CompareOptions options;
+    options.alpha = 1e-6;
+    for (unsigned seed = 2; seed < 6; ++seed) {
+        Image few = sparse(seed, 32);
+        EXPECT_TRUE(compare(few, reference, options).same) << seed;
+        // Each variance on its own, as for batches of unknown size, raises the false alarm.
+        few.attributes.erase("batchSize");
+        EXPECT_FALSE(compare(few, reference, options).same) << seed;
+    }
+    Image brighter = sparse(7, 32);
+    for (float& value : brighter.channels[0].data) value += 0.01F;
+    EXPECT_FALSE(compare(brighter, reference, options).same);
+}
+
+TEST(NoiseTest, TheMapOfStandardErrors) {
+    Image a = picture(2, 1, {"Y", "variance.Y"}, 0.0F), b = a;
+    a.channels[0].data = {1.0F, 2.0F};
+    b.channels[0].data = {0.25F, 2.0F};
+    a.channels[1].data = {0.04F, 0.0F};
+    b.channels[1].data = {0.05F, 0.0F};
+    const std::vector<double> z = standardised_difference(a, b, "Y", "a", "b");
+    EXPECT_NEAR(z[0], 0.75 / 0.3, 1e-6);
+    EXPECT_EQ(z[1], 0.0);
+    a.channels[0].data[1] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_TRUE(std::isnan(standardised_difference(a, b, "Y", "a", "b")[1]));
 }
 
 TEST(NoiseTest, RoundingOfNoiseFreePixelsIsNoDifference) {
