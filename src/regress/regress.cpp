@@ -247,12 +247,13 @@ RegressResult run_regress(const ReferenceManifest& manifest, const RegressOption
     parallel_for(run.cases.size(), options.threads, [&](size_t k) {
         CaseResult& result = run.cases[order[k]];
         const ReferenceCase& one = result.declared;
+        // Another name than the reference's, wherever the commands are run.
         result.render_command = render_command(manifest.scene_path(one), one, one.samples,
-                                               result.seed, one.name + ".exr");
+                                               result.seed, one.name + "-new.exr");
         result.compare_command =
-            fmt::format("drude compare {}.exr {} --channels {} --alpha {} --any-scene", one.name,
-                        quoted(manifest.reference_path(one)), one.stokes ? "S0,S1,S2,S3" : "R,G,B",
-                        format_double(run.alpha_each));
+            fmt::format("drude compare {}-new.exr {} --channels {} --alpha {} --any-scene",
+                        one.name, quoted(manifest.reference_path(one)),
+                        one.stokes ? "S0,S1,S2,S3" : "R,G,B", format_double(run.alpha_each));
         result.update_command = fmt::format("drude regress {} --only {} --update --why 'REASON'",
                                             quoted(manifest.folder), one.name);
         if (interrupted()) return;
