@@ -99,8 +99,11 @@ void judge(CaseResult* result, double alpha) {
     result->detectable_bias = relative_bias(noise);
     if (!comparison.same) {
         result->status = CaseStatus::failed;
-        result->message = fmt::format("{}; corrected p = {:.3g} against alpha = {:.3g}",
-                                      where_found(noise.worst), noise.p_min, alpha);
+        // The smallest doubles end at 1e-308.
+        const std::string p =
+            noise.p_min > 0 ? fmt::format("= {:.3g}", noise.p_min) : "below 1e-300";
+        result->message = fmt::format("{}; corrected p {} against alpha = {:.3g}",
+                                      where_found(noise.worst), p, alpha);
     } else if (!(result->detectable_bias <= one.largest_bias)) {
         result->status = CaseStatus::weak;
         result->message = fmt::format(

@@ -68,6 +68,8 @@ TEST(Regress, AnUpdatedReferencePassesAndItsReasonIsKept) {
     EXPECT_GT(result["p_min"], 1e-5);
     EXPECT_LT(result["detectable_bias"], 0.01);
     EXPECT_FALSE(result["scene_changed"]);
+    const ProgramRun threads = run_drude(folder, "regress . --json --threads 1");
+    EXPECT_EQ(nlohmann::json::parse(threads.out)["cases"][0]["p_min"], result["p_min"]);
     // Passing references stay as they are.
     const std::string before = read_text(folder.file("metal.exr"));
     ASSERT_EQ(run_drude(folder, "regress . -q --update --why again").status, 0);
