@@ -12,9 +12,9 @@
 namespace drude {
 namespace {
 
-constexpr int band_width_nm = 10;
+constexpr int band_width_nm = 5;
 
-// Linear R, G or B of a spectrum given as the means over bands of ten wavelengths.
+// Linear R, G or B of a spectrum given as the means over bands of five wavelengths.
 std::vector<double> colour_weights(size_t colour) {
     std::vector<double> weights(spectrum_integral_size / band_width_nm, 0.0);
     const auto& to_rgb = rgb_from_xyz();
@@ -100,7 +100,7 @@ TEST(ReferencePictures, MirrorsAreTheIntegrators) {
 }
 
 TEST(ReferencePictures, RoughMetalIsTheIntegrators) {
-    expect_agreement_of("beckmann-smith-0.15", "lobes/beckmann-smith-0.15.pbrt", 256);
+    expect_agreement_of("beckmann-smith-0.15", "lobes/beckmann-smith-0.15.pbrt", 96);
 }
 
 TEST(ReferencePictures, FilmsAreTheIntegrators) {
@@ -108,7 +108,7 @@ TEST(ReferencePictures, FilmsAreTheIntegrators) {
 }
 
 TEST(ReferencePictures, FittedSamplesAreTheIntegrators) {
-    expect_agreement_of("Al-oxide-fitted", "fitted/Al-oxide-fitted.pbrt", 256);
+    expect_agreement_of("Al-oxide-fitted", "fitted/Al-oxide-fitted.pbrt", 64);
 }
 
 // Another publication's copper, and another width of the lobe.
