@@ -224,6 +224,12 @@ Command regress_command() {
         "--update renders the references of the cases that do not pass (--all: of every case "
         "chosen) and asks why; the answer is kept in the manifest. A scene or a material file that "
         "differs from the reference's is told, but what decides is the picture.\n\n"
+        "A new case is an entry of the manifest: name (its reference is NAME.exr), scene (relative "
+        "to DIR), purpose, samples and seed of every run, reference_samples and reference_seed "
+        "(more "
+        "and another), largest_bias; and where wanted wavelengths (8, 16, 40), transport (stokes, "
+        "or "
+        "auto for R, G, B alone) and resolution (WxH). --update renders its reference.\n\n"
         "Exit 0: all passed. 1: a picture changed, is too noisy to tell, or has no reference. "
         "2: a scene, reference or the manifest cannot be read.";
     command.example =
