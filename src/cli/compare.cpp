@@ -76,8 +76,7 @@ void write_pair(const Image& a, const Image& b, const Options& options, int thre
     };
     Sheet sheet;
     sheet.row_captions = {""};
-    sheet.column_captions = {std::filesystem::path(options.a).filename().string(),
-                             std::filesystem::path(options.b).filename().string()};
+    sheet.column_captions = {"A", "B"};  // as on the command line: names would not fit
     sheet.cells = {{shown(a, rgb_a), shown(b, rgb_b)}};
     const Picture picture = compose_sheet(sheet);
     write_png(options.pair, picture.width, picture.height, picture.rgb);
