@@ -2,115 +2,28 @@
 #include "image/compare.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/numbers.h"
 #include "cli/command_list.h"
+#include "cli/compare_output.h"
 #include "image/difference.h"
+#include "image/sheet.h"
+#include "image/tonemap.h"
 
 namespace drude {
 
 namespace {
 
 struct Options {
-    std::string a, b, output, channels, tolerance, range;
-    bool exact = false, log = false, is_signed = false;
+    std::string a, b, output, pair, channels, tolerance, range, flip = "none";
+    bool exact = false, any_scene = false, log = false, is_signed = false, z_map = false;
     double alpha = 1e-3;
 };
-
-const char* word(Decision decision) {
-    switch (decision) {
-        case Decision::exact:
-            return "exact";
-        case Decision::tolerance:
-            return "tolerance";
-        case Decision::noise:
-            return "noise";
-        case Decision::identical:
-            return "identical";
-    }
-    return "";
-}
-
-// NaN and infinities have no JSON number.
-nlohmann::json number(double value) {
-    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
-}
-
-nlohmann::json figures_json(const Figures& figures) {
-    return {{"mean_error", number(figures.mean_error)},
-            {"mae", number(figures.mae)},
-            {"rmse", number(figures.rmse)},
-            {"relmse", number(figures.relmse)},
-            {"smape", number(figures.smape)},
-            {"psnr", number(figures.psnr)},
-            {"max_error", number(figures.max_error)}};
-}
-
-nlohmann::json to_json(const Comparison& comparison, const Options& options) {
-    nlohmann::json json = figures_json(comparison.all);
-    json["a"] = options.a;
-    json["b"] = options.b;
-    json["same"] = comparison.same;
-    json["decision"] = word(comparison.decision);
-    json["reason"] = comparison.reason;
-    json["not_finite"] = comparison.not_finite;
-    for (size_t c = 0; c < comparison.channels.size(); ++c) {
-        json["channels"][comparison.channels[c]] = figures_json(comparison.each[c]);
-    }
-    // Without variances nothing is known about noise; null says so.
-    for (const char* key : {"p_min", "outlier_fraction", "smallest_detectable_bias"}) {
-        json[key] = nullptr;
-    }
-    if (comparison.noise) {
-        const NoiseTest& noise = *comparison.noise;
-        json["p_min"] = noise.p_min;
-        json["p_pixels"] = noise.p_pixels;
-        json["p_blocks"] = noise.p_blocks;
-        json["p_global"] = noise.p_global;
-        json["outlier_fraction"] = noise.outlier_fraction;
-        json["smallest_detectable_bias"] = number(noise.smallest_detectable_bias);
-        json["alpha"] = options.alpha;
-        json["tests"] = noise.tests;
-    }
-    if (comparison.decision == Decision::tolerance) {
-        json["beyond_tolerance"] = comparison.beyond_tolerance;
-    }
-    return json;
-}
-
-void print(const Comparison& comparison, const Options& options) {
-    const Figures& all = comparison.all;
-    fmt::print("{}: {} against {}, channels {}\n", comparison.same ? "same" : "different",
-               options.a, options.b, fmt::join(comparison.channels, " "));
-    fmt::print("  {}\n", comparison.reason);
-    const auto line = [](const char* name, double value) {
-        fmt::print("  {:<26}{:.6g}\n", name, value);
-    };
-    line("mean error (a - b)", all.mean_error);
-    line("mean absolute error", all.mae);
-    line("RMSE", all.rmse);
-    line("relative MSE", all.relmse);
-    line("SMAPE", all.smape);
-    line("PSNR / dB", all.psnr);
-    line("largest error", all.max_error);
-    if (comparison.not_finite > 0) {
-        fmt::print("  {:<26}{}\n", "NaN or infinite values", comparison.not_finite);
-    }
-    if (!comparison.noise) return;
-    line("p, corrected", comparison.noise->p_min);
-    line("  of pixels", comparison.noise->p_pixels);
-    line("  of 8x8 blocks", comparison.noise->p_blocks);
-    line("  of the mean", comparison.noise->p_global);
-    line("outlier fraction", comparison.noise->outlier_fraction);
-    line("smallest detectable bias", comparison.noise->smallest_detectable_bias);
-}
 
 void read_range(const std::string& text, ColourBar& bar) {
     const size_t comma = text.find(',');
@@ -142,9 +55,45 @@ void write_difference(const Image& a, const Image& b, const std::vector<std::str
         return;
     }
     const std::vector<double> values =
-        options.is_signed ? signed_difference(a, b, channels) : log_difference(a, b, channels);
+        options.z_map       ? standard_error_difference(a, b, channels, options.a, options.b)
+        : options.is_signed ? signed_difference(a, b, channels)
+                            : log_difference(a, b, channels);
     const Picture picture = with_colour_bar(map_values(a.width, a.height, values, bar), bar);
     write_png(options.output, picture.width, picture.height, picture.rgb);
+}
+
+// Both pictures side by side under the tone mapping that the reference decides: an operator that
+// adapted to each would make up differences and hide others.
+void write_pair(const Image& a, const Image& b, const Options& options, int threads) {
+    const std::vector<float> rgb_a = rgb_values(a, options.a), rgb_b = rgb_values(b, options.b);
+    DurandOptions durand;
+    durand.threads = threads;
+    const DurandParameters parameters = durand_parameters(b.width, b.height, rgb_b, durand);
+    const auto shown = [&](const Image& image, const std::vector<float>& rgb) {
+        Picture picture(image.width, image.height, {});
+        picture.rgb = tonemap_durand(image.width, image.height, rgb, parameters, durand);
+        return picture;
+    };
+    Sheet sheet;
+    sheet.row_captions = {""};
+    sheet.column_captions = {"A", "B"};  // as on the command line: names would not fit
+    sheet.cells = {{shown(a, rgb_a), shown(b, rgb_b)}};
+    const Picture picture = compose_sheet(sheet);
+    write_png(options.pair, picture.width, picture.height, picture.rgb);
+}
+
+std::optional<FlipResult> flip_of(const Image& a, const Image& b, const Options& options,
+                                  int threads) {
+    if (options.flip == "none") return std::nullopt;
+    const auto picture = [](const Image& image, const std::string& name) {
+        Picture result(image.width, image.height, {});
+        result.rgb = rgb_values(image, name);
+        return result;
+    };
+    FlipOptions flip;
+    flip.threads = threads;
+    const Picture in_a = picture(a, options.a), in_b = picture(b, options.b);
+    return options.flip == "hdr" ? flip_hdr(in_a, in_b, flip) : flip_ldr(in_a, in_b, flip);
 }
 
 // Everything that can be wrong with the options alone, before files are read.
@@ -152,10 +101,18 @@ ColourBar check(const Options& options) {
     if (options.exact && !options.tolerance.empty()) {
         user_error("--exact and --tolerance: choose one");
     }
-    if (options.log && options.is_signed) user_error("--log and --signed: choose one");
+    if (static_cast<int>(options.log) + static_cast<int>(options.is_signed) +
+            static_cast<int>(options.z_map) >
+        1) {
+        user_error("--log, --signed and --z-map: choose one");
+    }
+    if (!options.pair.empty() && std::filesystem::path(options.pair).extension() != ".png") {
+        user_error("--pair {}: expected a name that ends in .png", options.pair);
+    }
     if (options.output.empty()) {
         const char* needs = options.log              ? "--log"
                             : options.is_signed      ? "--signed"
+                            : options.z_map          ? "--z-map"
                             : !options.range.empty() ? "--range"
                                                      : nullptr;
         if (needs)
@@ -170,7 +127,9 @@ ColourBar check(const Options& options) {
     if (!(options.alpha > 0.0) || !(options.alpha < 1.0)) {
         user_error("--alpha {}: expected a probability between 0 and 1, e.g. 0.001", options.alpha);
     }
-    ColourBar bar = options.is_signed ? signed_difference_bar() : log_difference_bar();
+    ColourBar bar = options.z_map       ? standard_error_bar()
+                    : options.is_signed ? signed_difference_bar()
+                                        : log_difference_bar();
     if (!options.range.empty()) read_range(options.range, bar);
     return bar;
 }
@@ -179,6 +138,7 @@ int run(const Options& options, const CommonOptions& common) {
     const ColourBar bar = check(options);
     CompareOptions compare;
     compare.exact = options.exact;
+    compare.any_scene = options.any_scene;
     compare.alpha = options.alpha;
     compare.threads = common.threads;
     if (!options.tolerance.empty()) compare.tolerance = parse_tolerance(options.tolerance);
@@ -191,10 +151,13 @@ int run(const Options& options, const CommonOptions& common) {
     if (!options.output.empty()) {
         write_difference(a, b, comparison.channels, options, bar);
     }
+    if (!options.pair.empty()) write_pair(a, b, options, common.threads);
+    const std::optional<FlipResult> flip = flip_of(a, b, options, common.threads);
+    const CompareWords words = {options.a, options.b, options.flip, options.alpha};
     if (common.json) {
-        fmt::print("{}\n", to_json(comparison, options).dump(2));
+        fmt::print("{}\n", comparison_json(comparison, flip, words).dump(2));
     } else {
-        print(comparison, options);
+        print_comparison(comparison, flip, words);
     }
     return comparison.same ? 0 : static_cast<int>(Cause::answer_is_no);
 }
@@ -216,20 +179,35 @@ Command compare_command() {
         "at a false-alarm probability of --alpha for the whole comparison; where they do not, only "
         "equal values are the same. The smallest detectable bias says what such a test could have "
         "seen: a mean difference of that size is revealed with 95 % probability.\n\n"
+        "Pictures of different sizes, of different scenes (attribute sceneHash; --any-scene "
+        "allows it), with other channels or with spectral layers of other wavelengths are errors "
+        "of their own.\n\n"
         "Figures: mean error (a - b), mean absolute error, RMSE, relative MSE "
-        "((a - b)^2 / (b^2 + 0.01)), SMAPE, PSNR (peak: largest |b|), largest error.\n\n"
+        "((a - b)^2 / (b^2 + 0.01)), SMAPE, PSNR (peak: largest |b|), largest error; --flip adds "
+        "FLIP (Andersson et al. 2020, at 67 pixels a degree; hdr: 2021, the worst of many "
+        "exposures). Where both files have S0 to S3: their errors one by one, and those of the "
+        "degree and the angle of linear polarisation, weighted by the polarised intensity, per "
+        "wavelength or from Y.\n\n"
         "-o DIFF.png draws log10 of the mean over the channels of |a - b| from -5 to 0 (--log, the "
-        "default) or the mean of a - b from -0.1 to 0.1 (--signed), with a colour bar; --range "
-        "sets another range. Magenta marks what is no number. -o DIFF.exr writes a - b itself.";
+        "default), the mean of a - b from -0.1 to 0.1 (--signed), or a - b in standard errors of "
+        "the channel furthest off from -6 to 6 (--z-map), with a colour bar; --range "
+        "sets another range. Magenta marks what is no number. -o DIFF.exr writes a - b itself. "
+        "--pair OUT.png sets both pictures side by side under one tone mapping, that of B.\n\n"
+        "Files of pbrt-v4, Mitsuba and ART are read as they are: R, G, B, S0.R to S3.B and "
+        "S0.550,000000nm are the same names there. Mitsuba's scenes are right-handed; signs of "
+        "S2 and S3 agree only where the scene was mirrored.";
     command.example =
         "drude compare fitted.exr literature.exr --log -o difference.png\n"
         "drude compare new.exr reference.exr --json\n"
+        "drude compare new.exr old.exr --flip hdr --pair pair.png\n"
         "drude compare one.exr two.exr --channels S1,S2 --tolerance 1e-5,1e-3,0.1";
     command.declare = [](OptionSet& set, const CommonOptions& common) {
         const auto options = std::make_shared<Options>();
         set.positional("A", options->a, "The picture in question.", true);
         set.positional("B", options->b, "The reference.", true);
         set.flag("--exact", options->exact, "Compare pixels and channel names bit for bit.");
+        set.flag("--any-scene", options->any_scene,
+                 "Compare pictures whose files say that they show different scenes.");
         set.option("--tolerance", options->tolerance,
                    "ABS,REL,PERCENT: the difference that is allowed.");
         set.option("--alpha", options->alpha, "Probability of a false alarm of the noise test.");
@@ -237,6 +215,10 @@ Command compare_command() {
                    "Channels, layers (S1 for S1.*) or 'all'; R,G,B unless given.");
         set.flag("--log", options->log, "Draw log10 |a - b|, the default.");
         set.flag("--signed", options->is_signed, "Draw a - b.");
+        set.flag("--z-map", options->z_map, "Draw (a - b) / standard error.");
+        set.option("--pair", options->pair, "Write A and B side by side, tone-mapped alike, .png.");
+        set.choice("--flip", options->flip, {"none", "ldr", "hdr"},
+                   "Compute FLIP, of what a display shows or over all exposures.");
         set.option("--range", options->range, "LOW,HIGH: what the ends of the colours stand for.");
         set.option("-o,--output", options->output, "Write the difference picture, .png or .exr.");
         return [options, &common] { return run(*options, common); };

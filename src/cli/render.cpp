@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,6 +15,7 @@
 #include "cli/command_list.h"
 #include "render/environment_choice.h"
 #include "render/transport_choice.h"
+#include "scene/resolution.h"
 
 namespace drude {
 
@@ -28,33 +27,6 @@ struct Options {
     uint64_t seed = 0;
     bool spectral = false, stokes = false, dry_run = false;
 };
-
-// Another resolution, and the screen window that goes with it: as pbrt has it, -1 to 1 along the
-// shorter side, unless the scene gave the window itself.
-void set_resolution(const std::string& text, Scene* scene) {
-    Film* film = &scene->film;
-    int width = 0, height = 0;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 ||
-        height < 1 || width > 65536 || height > 65536) {
-        user_error("--resolution '{}': expected WIDTHxHEIGHT, e.g. 512x512", text);
-    }
-    const auto default_window = [](int w, int h, double window[4]) {
-        const double aspect = static_cast<double>(w) / h;
-        window[1] = std::max(1.0, aspect);
-        window[3] = std::max(1.0, 1 / aspect);
-        window[0] = -window[1];
-        window[2] = -window[3];
-    };
-    double expected[4];
-    default_window(film->width, film->height, expected);
-    double* window = scene->camera.screen_window;
-    const bool is_default = std::equal(window, window + 4, expected,
-                                       [](double a, double b) { return std::abs(a - b) < 1e-9; });
-    if (is_default) default_window(width, height, window);
-    film->width = width;
-    film->height = height;
-}
 
 void describe(const Scene& scene) {
     size_t triangles = 0, spheres = 0;
@@ -83,7 +55,9 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
     if (!options.environment.empty()) {
         replace_environment(&scene, options.environment, common.threads);
     }
-    if (!options.resolution.empty()) set_resolution(options.resolution, &scene);
+    if (!options.resolution.empty()) {
+        set_resolution(options.resolution, "--resolution", &scene);
+    }
     if (given.given("--max-depth")) {
         if (options.max_depth < 0)
             user_error("--max-depth {}: expected 0 or more", options.max_depth);

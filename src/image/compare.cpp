@@ -1,7 +1,5 @@
 #include "image/compare.h"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -9,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
+#include "image/comparable.h"
 
 namespace drude {
 
@@ -61,40 +60,25 @@ bool is_variance(const std::string& name) {
     return name.rfind("variance.", 0) == 0;
 }
 
-std::vector<std::string> sorted_names(const Image& image) {
-    std::vector<std::string> names;
-    for (const Channel& channel : image.channels) names.push_back(channel.name);
-    std::sort(names.begin(), names.end());
+// S0 to S3 of both: spectral layers where both have the same ones, otherwise R, G, B.
+std::vector<std::vector<std::string>> stokes_channels(const Image& a, const Image& b) {
+    std::vector<std::string> suffixes;
+    if (wavelengths_of(a) == wavelengths_of(b)) {
+        for (const Channel& channel : a.channels) {
+            if (channel.name.rfind("S0.", 0) == 0 && layer_wavelength(channel.name)) {
+                suffixes.push_back(channel.name.substr(3));
+            }
+        }
+    }
+    if (suffixes.empty()) suffixes = {"R", "G", "B"};
+    std::vector<std::vector<std::string>> names(4);
+    for (size_t i = 0; i < 4; ++i) {
+        for (const std::string& suffix : suffixes) {
+            names[i].push_back(fmt::format("S{}.{}", i, suffix));
+            if (!a.find(names[i].back()) || !b.find(names[i].back())) return {};
+        }
+    }
     return names;
-}
-
-void check_size(const Image& a, const Image& b, const std::string& name_a,
-                const std::string& name_b) {
-    if (a.width == b.width && a.height == b.height) return;
-    user_error("{} is {} x {} pixels, {} is {} x {}; expected pictures of one size", name_a,
-               a.width, a.height, name_b, b.width, b.height);
-}
-
-void check_same_names(const Image& a, const Image& b, const std::string& name_a,
-                      const std::string& name_b) {
-    const std::vector<std::string> in_a = sorted_names(a), in_b = sorted_names(b);
-    if (in_a == in_b) return;
-    std::vector<std::string> only_a, only_b;
-    std::set_difference(in_a.begin(), in_a.end(), in_b.begin(), in_b.end(),
-                        std::back_inserter(only_a));
-    std::set_difference(in_b.begin(), in_b.end(), in_a.begin(), in_a.end(),
-                        std::back_inserter(only_b));
-    const auto list = [](std::vector<std::string> names) {
-        if (names.empty()) return std::string("none");
-        constexpr size_t enough = 6;
-        const size_t more = names.size() > enough ? names.size() - enough : 0;
-        names.resize(names.size() - more);
-        return fmt::format("{}{}", fmt::join(names, " "),
-                           more ? fmt::format(" and {} more", more) : "");
-    };
-    user_error(
-        "the channels differ: only in {}: {}; only in {}: {}; choose common ones with --channels",
-        name_a, list(only_a), name_b, list(only_b));
 }
 
 std::vector<std::string> default_channels(const Image& a, const Image& b) {
@@ -222,6 +206,11 @@ std::vector<std::string> parse_channels(const std::string& list, const Image& im
 Comparison compare_images(const Image& a, const Image& b, const std::string& name_a,
                           const std::string& name_b, const CompareOptions& options) {
     check_size(a, b, name_a, name_b);
+    if (!options.any_scene) check_scenes(a, b, name_a, name_b);
+    const bool of_layers =
+        std::any_of(options.channels.begin(), options.channels.end(),
+                    [](const std::string& name) { return layer_wavelength(name).has_value(); });
+    if (options.exact || of_layers) check_wavelengths(a, b, name_a, name_b);
     if (options.exact) check_same_names(a, b, name_a, name_b);
     Comparison result;
     result.channels = options.channels;
@@ -252,6 +241,20 @@ Comparison compare_images(const Image& a, const Image& b, const std::string& nam
         all.add(totals);
     }
     result.all = all.figures();
+    for (const std::vector<std::string>& names : stokes_channels(a, b)) {
+        Totals totals;
+        for (const std::string& name : names) {
+            const Channel& in_a = a.at(name, name_a);
+            const Channel& in_b = b.at(name, name_b);
+            for (size_t i = 0; i < a.pixels(); ++i) {
+                const double va = static_cast<double>(in_a.data[i]);
+                const double vb = static_cast<double>(in_b.data[i]);
+                if (std::isfinite(va) && std::isfinite(vb)) totals.add(va, vb);
+            }
+        }
+        result.stokes.push_back(totals.figures());
+    }
+    result.polarisation = polarisation_errors(a, b);
     decide(a, b, name_a, name_b, options, result);
     return result;
 }

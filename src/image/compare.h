@@ -7,6 +7,7 @@
 
 #include "image/image.h"
 #include "image/noise_test.h"
+#include "image/polarisation.h"
 
 namespace drude {
 
@@ -24,6 +25,8 @@ struct CompareOptions {
     std::vector<std::string> channels;
     bool exact = false;
     std::optional<Tolerance> tolerance;
+    // Compare also where the files say that they are pictures of different scenes.
+    bool any_scene = false;
     double alpha = 1e-3;  // probability of a false alarm of a whole comparison, in (0, 1)
     int threads = 0;
 };
@@ -55,10 +58,16 @@ struct Comparison {
     size_t not_finite = 0;
     size_t beyond_tolerance = 0;
     std::optional<NoiseTest> noise;
+    // S0 to S3, each over its R, G and B (or over all spectral layers where there are any in both);
+    // empty where one image has no such channels.
+    std::vector<Figures> stokes;
+    std::optional<PolarisationErrors> polarisation;
 };
 
-// Throws Error (user) for different sizes, a channel that is missing in one image, and with
-// `exact` for different channel names; `name_a`, `name_b` name the files.
+// Throws Error (user) for different sizes, for attributes `sceneHash` that differ (unless
+// any_scene), for spectral layers of different wavelengths where such are compared, for a channel
+// that is missing in one image, and with `exact` for different channel names; `name_a`, `name_b`
+// name the files.
 Comparison compare_images(const Image& a, const Image& b, const std::string& name_a,
                           const std::string& name_b, const CompareOptions& options);
 

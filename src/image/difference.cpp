@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "image/font.h"
+#include "image/noise_test.h"
 
 namespace drude {
 
@@ -47,6 +48,23 @@ std::vector<double> signed_difference(const Image& a, const Image& b,
     return mean_over_channels(a, b, channels, [](double d) { return d; });
 }
 
+std::vector<double> standard_error_difference(const Image& a, const Image& b,
+                                              const std::vector<std::string>& channels,
+                                              const std::string& name_a,
+                                              const std::string& name_b) {
+    std::vector<double> furthest(a.pixels(), 0.0);
+    for (const std::string& name : channels) {
+        const std::vector<double> z = standardised_difference(a, b, name, name_a, name_b);
+        for (size_t i = 0; i < z.size(); ++i) {
+            // NaN is further off than anything.
+            if (!(std::abs(z[i]) <= std::abs(furthest[i])) && !std::isnan(furthest[i])) {
+                furthest[i] = z[i];
+            }
+        }
+    }
+    return furthest;
+}
+
 Picture map_values(int width, int height, const std::vector<double>& values, const ColourBar& bar) {
     Picture picture(width, height, {});
     if (values.size() * 3 != picture.rgb.size()) throw std::logic_error("map_values: wrong size");
@@ -64,6 +82,10 @@ ColourBar log_difference_bar() {
 
 ColourBar signed_difference_bar() {
     return {ColourMap::diverging, -0.1, 0.1, "a-b"};
+}
+
+ColourBar standard_error_bar() {
+    return {ColourMap::diverging, -6.0, 6.0, "(a-b)/s"};
 }
 
 Picture with_colour_bar(const Picture& picture, const ColourBar& bar) {

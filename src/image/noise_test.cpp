@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/executor.h"
@@ -20,7 +21,19 @@ struct Sums {
     // Sums of squared variances over their degrees of freedom (Satterthwaite).
     double spread = 0.0;
     double pixels = 0.0;
+    // Batches of a over those of b where both are of one size, otherwise 0.
+    double batch_ratio = 0.0;
     bool finite = true;
+
+    // Where batches are alike they have one variance, if the pictures do not differ, and the larger
+    // of the two estimates is taken for both. A skewed pixel whose few batches all missed what is
+    // bright and rare has too low a mean and too small a variance at once: by itself it would be an
+    // alarm far more often than Student's distribution says.
+    double total_variance() const {
+        if (!(batch_ratio > 0.0)) return variance_a + variance_b;
+        return std::max(variance_a, variance_b / batch_ratio) +
+               std::max(variance_b, variance_a * batch_ratio);
+    }
 
     void add(const Sums& other) {
         a += other.a;
@@ -29,6 +42,7 @@ struct Sums {
         variance_b += other.variance_b;
         spread += other.spread;
         pixels += other.pixels;
+        batch_ratio = other.batch_ratio;
         finite = finite && other.finite;
     }
 };
@@ -40,7 +54,7 @@ double rounding(const Sums& sums) {
 }
 
 double standard_error(const Sums& sums) {
-    return std::sqrt(sums.variance_a + sums.variance_b + rounding(sums) * rounding(sums));
+    return std::sqrt(sums.total_variance() + rounding(sums) * rounding(sums));
 }
 
 double degrees_of_freedom(const Sums& sums) {
@@ -49,11 +63,40 @@ double degrees_of_freedom(const Sums& sums) {
     return sums.spread > 0.0 ? variance * variance / sums.spread : 1e9;
 }
 
+// The difference in standard errors; infinite where either is not finite, or where nothing is
+// random and the values differ.
+double standardised(const Sums& sums) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    if (!sums.finite) return infinite;
+    const double difference = sums.a - sums.b, error = standard_error(sums);
+    if (error == 0.0) return difference == 0.0 ? 0.0 : std::copysign(infinite, difference);
+    return difference / error;
+}
+
 double p_value(const Sums& sums) {
-    if (!sums.finite) return 0.0;
-    const double error = standard_error(sums);
-    if (error == 0.0) return sums.a == sums.b ? 1.0 : 0.0;
-    return student_two_sided((sums.a - sums.b) / error, degrees_of_freedom(sums));
+    const double z = standardised(sums);
+    return std::isfinite(z) ? student_two_sided(z, degrees_of_freedom(sums)) : 0.0;
+}
+
+// The smallest p-value so far, and where it is; where several are zero, the largest deviation.
+struct Smallest {
+    double p = 1.0, z = 0.0;
+    size_t channel = 0, at = 0;
+
+    void offer(const Smallest& other) {
+        if (other.p < p || (other.p == p && std::abs(other.z) > std::abs(z))) *this = other;
+    }
+    void offer(const Sums& sums, size_t in_channel, size_t index) {
+        offer({p_value(sums), standardised(sums), in_channel, index});
+    }
+};
+
+double batch_ratio_of(const Image& a, const Image& b) {
+    const double size = a.number("batchSize", 0.0);
+    const double batches_a = a.number("batches", 0.0), batches_b = b.number("batches", 0.0);
+    return size > 0.0 && size == b.number("batchSize", 0.0) && batches_b > 0.0
+               ? batches_a / batches_b
+               : 0.0;
 }
 
 double batches_of(const Image& image, const std::string& where) {
@@ -78,13 +121,13 @@ void check_variance(const Channel& channel, int width, const std::string& where)
 }
 
 struct RowResult {
-    double smallest = 1.0;
+    Smallest smallest;
     size_t outliers = 0;
 };
 
 struct ChannelPair {
     const float *a, *b, *variance_a, *variance_b;
-    double degrees_a, degrees_b;
+    double degrees_a, degrees_b, batch_ratio;
 
     Sums pixel(size_t i) const {
         Sums sums;
@@ -96,6 +139,7 @@ struct ChannelPair {
         sums.spread = sums.variance_a * sums.variance_a / degrees_a +
                       sums.variance_b * sums.variance_b / degrees_b;
         sums.pixels = 1.0;
+        sums.batch_ratio = batch_ratio;
         return sums;
     }
 };
@@ -115,6 +159,29 @@ std::vector<std::string> without_variance(const Image& image,
     return missing;
 }
 
+std::vector<double> standardised_difference(const Image& a, const Image& b,
+                                            const std::string& channel, const std::string& name_a,
+                                            const std::string& name_b) {
+    const Channel& variance_a = a.at(variance_name(channel), name_a);
+    const Channel& variance_b = b.at(variance_name(channel), name_b);
+    check_variance(variance_a, a.width, name_a);
+    check_variance(variance_b, b.width, name_b);
+    // Degrees of freedom do not enter a difference in standard errors.
+    const ChannelPair pair = {a.at(channel, name_a).data.data(),
+                              b.at(channel, name_b).data.data(),
+                              variance_a.data.data(),
+                              variance_b.data.data(),
+                              1.0,
+                              1.0,
+                              batch_ratio_of(a, b)};
+    std::vector<double> z(a.pixels());
+    for (size_t i = 0; i < z.size(); ++i) {
+        const Sums sums = pair.pixel(i);
+        z[i] = sums.finite ? standardised(sums) : std::numeric_limits<double>::quiet_NaN();
+    }
+    return z;
+}
+
 NoiseTest noise_test(const Image& a, const Image& b, const std::vector<std::string>& channels,
                      const std::string& name_a, const std::string& name_b, double alpha,
                      int threads) {
@@ -128,9 +195,10 @@ NoiseTest noise_test(const Image& a, const Image& b, const std::vector<std::stri
     const double global_alpha = sidak_each(sidak_each(alpha, families), channel_count);
 
     NoiseTest result;
-    double smallest_pixel = 1.0, smallest_block = 1.0, smallest_global = 1.0;
+    Smallest pixel, block, global;
     size_t outliers = 0;
-    for (const std::string& name : channels) {
+    for (size_t c = 0; c < channels.size(); ++c) {
+        const std::string& name = channels[c];
         const Channel& variance_a = a.at(variance_name(name), name_a);
         const Channel& variance_b = b.at(variance_name(name), name_b);
         check_variance(variance_a, a.width, name_a);
@@ -140,7 +208,8 @@ NoiseTest noise_test(const Image& a, const Image& b, const std::vector<std::stri
                                   variance_a.data.data(),
                                   variance_b.data.data(),
                                   degrees_a,
-                                  degrees_b};
+                                  degrees_b,
+                                  batch_ratio_of(a, b)};
         // A row of blocks is one piece of work; results are put together in a fixed order.
         std::vector<RowResult> pixel_rows(blocks_y);
         std::vector<Sums> blocks(blocks_x * blocks_y);
@@ -149,36 +218,56 @@ NoiseTest noise_test(const Image& a, const Image& b, const std::vector<std::stri
             for (size_t y = block_row * block_side; y < end; ++y) {
                 for (size_t x = 0; x < width; ++x) {
                     const Sums sums = pair.pixel(y * width + x);
-                    const double p = p_value(sums);
-                    pixel_rows[block_row].smallest = std::min(pixel_rows[block_row].smallest, p);
-                    pixel_rows[block_row].outliers += p < alpha ? 1 : 0;
+                    Smallest one;
+                    one.offer(sums, c, y * width + x);
+                    pixel_rows[block_row].smallest.offer(one);
+                    pixel_rows[block_row].outliers += one.p < alpha ? 1 : 0;
                     blocks[block_row * blocks_x + x / block_side].add(sums);
                 }
             }
         });
         Sums whole;
         for (const RowResult& row : pixel_rows) {
-            smallest_pixel = std::min(smallest_pixel, row.smallest);
+            pixel.offer(row.smallest);
             outliers += row.outliers;
         }
-        for (const Sums& block : blocks) {
-            smallest_block = std::min(smallest_block, p_value(block));
-            whole.add(block);
+        for (size_t i = 0; i < blocks.size(); ++i) {
+            block.offer(blocks[i], c, i);
+            whole.add(blocks[i]);
         }
-        smallest_global = std::min(smallest_global, p_value(whole));
+        global.offer(whole, c, 0);
         const double degrees = degrees_of_freedom(whole);
         const double reach = student_quantile(global_alpha, degrees) +
                              student_quantile(2.0 * (1.0 - power), degrees);
+        MeanTest mean;
+        mean.channel = name;
+        mean.bias = (whole.a - whole.b) / whole.pixels;
+        mean.standard_error = standard_error(whole) / whole.pixels;
+        mean.reference = whole.b / whole.pixels;
+        mean.detectable_bias = reach * mean.standard_error;
         result.smallest_detectable_bias =
-            std::max(result.smallest_detectable_bias, reach * standard_error(whole) / whole.pixels);
+            std::max(result.smallest_detectable_bias, mean.detectable_bias);
+        result.means.push_back(mean);
     }
     const double pixel_tests = static_cast<double>(width * height) * channel_count;
     const double block_tests = static_cast<double>(blocks_x * blocks_y) * channel_count;
-    result.p_pixels = sidak_family(smallest_pixel, pixel_tests);
-    result.p_blocks = sidak_family(smallest_block, block_tests);
-    result.p_global = sidak_family(smallest_global, channel_count);
+    result.p_pixels = sidak_family(pixel.p, pixel_tests);
+    result.p_blocks = sidak_family(block.p, block_tests);
+    result.p_global = sidak_family(global.p, channel_count);
     result.p_min =
         sidak_family(std::min({result.p_pixels, result.p_blocks, result.p_global}), families);
+    const auto finding = [&](TestFamily family, const Smallest& found, size_t columns, int side) {
+        return Finding{family, channels[found.channel], static_cast<int>(found.at % columns) * side,
+                       static_cast<int>(found.at / columns) * side, found.z};
+    };
+    // The mean before blocks before pixels: of equal evidence the plainest.
+    result.worst = finding(TestFamily::mean, global, 1, 0);
+    double p = result.p_global;
+    if (result.p_blocks < p) {
+        p = result.p_blocks;
+        result.worst = finding(TestFamily::block, block, blocks_x, block_side);
+    }
+    if (result.p_pixels < p) result.worst = finding(TestFamily::pixel, pixel, width, 1);
     result.outlier_fraction = static_cast<double>(outliers) / pixel_tests;
     result.tests = (width * height + blocks_x * blocks_y + 1) * channels.size();
     return result;

@@ -5,7 +5,9 @@
 // differences), once for the whole picture and channel. The three families share `alpha` by
 // Sidak's rule, and so do the tests within each, so that the probability of any false alarm in
 // the whole comparison is at most `alpha`. Pixels are taken as independent of each other: a
-// renderer with a filter wider than a pixel needs another test.
+// renderer with a filter wider than a pixel needs another test. Where both pictures say that their
+// batches are of one size (attribute `batchSize`), the larger of the two variances of a batch
+// stands for both, which keeps skewed noise from being taken for a difference.
 #pragma once
 
 #include <string>
@@ -22,6 +24,26 @@ std::string variance_name(const std::string& name);
 std::vector<std::string> without_variance(const Image& image,
                                           const std::vector<std::string>& names);
 
+enum class TestFamily { pixel, block, mean };
+
+// The test with the smallest p-value.
+struct Finding {
+    TestFamily family = TestFamily::mean;
+    std::string channel;
+    int x = 0, y = 0;  // the pixel, or the block's top left one
+    double z = 0.0;    // a - b in standard errors; infinite where nothing is random
+};
+
+// The whole picture's mean of one channel, in the picture's unit.
+struct MeanTest {
+    std::string channel;
+    double bias = 0.0;  // a - b
+    double standard_error = 0.0;
+    double reference = 0.0;  // mean of b
+    // A bias of this size would have been revealed with 95 % probability.
+    double detectable_bias = 0.0;
+};
+
 struct NoiseTest {
     // The smallest p-value of the comparison after both corrections, to be held against alpha.
     double p_min = 1.0;
@@ -34,6 +56,8 @@ struct NoiseTest {
     // revealed with 95 % probability; the largest over the channels.
     double smallest_detectable_bias = 0.0;
     size_t tests = 0;
+    Finding worst;
+    std::vector<MeanTest> means;  // one a channel
 };
 
 // Both images must have the channels, their variances and the attribute `batches` (at least 2);
@@ -43,5 +67,12 @@ struct NoiseTest {
 NoiseTest noise_test(const Image& a, const Image& b, const std::vector<std::string>& channels,
                      const std::string& name_a, const std::string& name_b, double alpha,
                      int threads);
+
+// (a - b) over its standard error, pixel by pixel: the z-map of one channel. NaN where a pixel is
+// not finite, infinite where nothing is random and the values differ. Sizes must agree; variances
+// as for noise_test.
+std::vector<double> standardised_difference(const Image& a, const Image& b,
+                                            const std::string& channel, const std::string& name_a,
+                                            const std::string& name_b);
 
 }  // namespace drude

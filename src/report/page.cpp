@@ -160,6 +160,13 @@ void Page::comparison(const PagePicture& left, const std::string& left_label,
         right_text, left_text, right_text, caption_element(caption));
 }
 
+void Page::swap(const PagePicture& shown, const PagePicture& beneath, const std::string& caption) {
+    add(body_,
+        "<figure><div class=\"swap\" tabindex=\"0\">{}<div class=\"over\">{}</div></div>{}"
+        "</figure>\n",
+        image_element(beneath), image_element(shown), caption_element(caption));
+}
+
 void Page::begin_grid() {
     close_grid();
     body_ += "<div class=\"grid\">\n";

@@ -59,6 +59,9 @@ class Page {
     void comparison(const PagePicture& left, const std::string& left_label,
                     const PagePicture& right, const std::string& right_label,
                     const std::string& caption);
+    // One picture in whose place the other, of the same size, is seen while the pointer or the
+    // focus is on it. Both, one below the other, in print.
+    void swap(const PagePicture& shown, const PagePicture& beneath, const std::string& caption);
     // What follows until the matching end stands side by side where there is room for it.
     void begin_grid();
     void end_grid();

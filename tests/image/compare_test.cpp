@@ -3,39 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <random>
 
-#include "base/error.h"
+#include "compare_cases.h"
 
 namespace drude {
 namespace {
-
-Image picture(int width, int height, const std::vector<std::string>& names, float value) {
-    Image image;
-    image.width = width;
-    image.height = height;
-    for (const std::string& name : names) {
-        std::vector<float>& data = image.add(name).data;
-        data.assign(data.size(), value);
-    }
-    return image;
-}
-
-std::string message_of(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.cause(), Cause::user);
-        return error.message();
-    }
-    return "";
-}
-
-Comparison compare(const Image& a, const Image& b, const CompareOptions& options = {}) {
-    return compare_images(a, b, "a.exr", "b.exr", options);
-}
 
 // Two values in one channel: differences 0.5 and -1 against references 1 and 2.
 TEST(Compare, FiguresByHand) {
@@ -123,6 +96,56 @@ TEST(Compare, SizesAndChannelsAreDistinctErrors) {
     EXPECT_NE(channel.find("'B'"), std::string::npos) << channel;
 }
 
+TEST(Compare, PicturesOfDifferentScenesAreAnErrorUnlessMeant) {
+    Image a = picture(2, 2, {"R", "G", "B"}, 0.5F), b = a;
+    a.attributes["sceneHash"] = std::string("aaaaaaaaaaaaaaaa");
+    EXPECT_TRUE(compare(a, b).same);  // one of them does not say
+    b.attributes["sceneHash"] = std::string("bbbbbbbbbbbbbbbb");
+    const std::string message = message_of([&] { compare(a, b); });
+    EXPECT_NE(message.find("different scenes"), std::string::npos) << message;
+    EXPECT_NE(message.find("--any-scene"), std::string::npos) << message;
+    CompareOptions any;
+    any.any_scene = true;
+    EXPECT_TRUE(compare(a, b, any).same);
+}
+
+TEST(Compare, LayersOfDifferentWavelengthsAreAnErrorOfTheirOwn) {
+    const Image a = picture(2, 2, {"R", "G", "B", "S0.400,000000nm", "S0.500,000000nm"}, 0.5F);
+    const Image b = picture(2, 2, {"R", "G", "B", "S0.400,000000nm", "S0.600,000000nm"}, 0.5F);
+    EXPECT_TRUE(compare(a, b).same);  // in their colours
+    CompareOptions layers, exact;
+    layers.channels = {"S0.400,000000nm"};
+    exact.exact = true;
+    for (const CompareOptions& options : {layers, exact}) {
+        const std::string message = message_of([&] { compare(a, b, options); });
+        EXPECT_NE(message.find("wavelengths"), std::string::npos) << message;
+        EXPECT_NE(message.find("2 from 400 to 600 nm"), std::string::npos) << message;
+    }
+}
+
+std::vector<std::string> stokes_names() {
+    std::vector<std::string> names;
+    for (const char* layer : {"S0.", "S1.", "S2.", "S3."}) {
+        for (const char* colour : {"R", "G", "B"}) names.push_back(std::string(layer) + colour);
+    }
+    return names;
+}
+
+TEST(Compare, EachStokesComponentHasItsErrors) {
+    std::vector<std::string> names = stokes_names();
+    names.insert(names.end(), {"R", "G", "B"});
+    const Image a = picture(3, 2, names, 0.5F);
+    Image b = a;
+    for (float& value : b.find("S2.G")->data) value = 0.2F;
+    const Comparison result = compare(a, b);
+    ASSERT_EQ(result.stokes.size(), 4U);
+    EXPECT_EQ(result.stokes[1].rmse, 0.0);
+    EXPECT_NEAR(result.stokes[2].rmse, 0.3 / std::sqrt(3.0), 1e-7);
+    EXPECT_NEAR(result.stokes[2].mean_error, 0.1, 1e-7);
+    EXPECT_TRUE(compare(picture(2, 2, {"R", "G", "B"}, 0), picture(2, 2, {"R", "G", "B"}, 0))
+                    .stokes.empty());
+}
+
 TEST(Compare, ToleranceIsTheLargerOfAbsoluteAndRelative) {
     Image a = picture(10, 10, {"Y"}, 100.0F), b = a;
     b.channels[0].data[0] = 100.5F;
@@ -166,162 +189,6 @@ TEST(Compare, ChannelLists) {
     EXPECT_NE(message_of([&] { parse("S1.G"); }).find("S1.R"), std::string::npos);
     EXPECT_NE(message_of([&] { parse(""); }), "");
     EXPECT_NE(message_of([&] { parse("R,,G"); }), "");
-}
-
-// ---- noise
-// ---------------------------------------------------------------------------------------
-
-// Means of `batches` normal batches and the variance between them over `batches`, as the renderer
-// stores them; the truth varies over the picture.
-Image noisy(unsigned seed, int width, int height, int batches, double bias) {
-    std::mt19937 generator(seed);
-    std::normal_distribution<double> normal;
-    Image image =
-        picture(width, height, {"R", "G", "B", "variance.R", "variance.G", "variance.B"}, 0.0F);
-    image.attributes["batches"] = batches;
-    for (const char* name : {"R", "G", "B"}) {
-        Channel& mean = *image.find(name);
-        Channel& variance = *image.find(variance_name(name));
-        for (size_t i = 0; i < image.pixels(); ++i) {
-            const double truth = 0.5 + 0.4 * std::sin(0.1 * static_cast<double>(i));
-            const double sigma = 0.2 * truth;
-            double sum = 0.0, square = 0.0;
-            for (int k = 0; k < batches; ++k) {
-                const double value = truth + bias + sigma * normal(generator);
-                sum += value;
-                square += value * value;
-            }
-            const double m = sum / batches;
-            mean.data[i] = static_cast<float>(m);
-            variance.data[i] = static_cast<float>((square / batches - m * m) / (batches - 1.0));
-        }
-    }
-    return image;
-}
-
-TEST(NoiseTest, OnePixelIsWelchsTestByHand) {
-    Image a = picture(1, 1, {"Y", "variance.Y"}, 0.0F), b = a;
-    a.attributes["batches"] = 16;
-    b.attributes["batches"] = 8;
-    a.channels[0].data = {1.0F};
-    b.channels[0].data = {0.25F};
-    a.channels[1].data = {0.04F};
-    b.channels[1].data = {0.05F};
-    const Comparison result = compare(a, b);
-    ASSERT_EQ(result.decision, Decision::noise);
-    // t = 0.75/0.3 = 2.5, degrees = 0.09^2/(0.04^2/15 + 0.05^2/7) = 17.4637...; the two-sided
-    // probability lies between those of 17 and 18 degrees, 0.02295 and 0.02232. The one pixel, its
-    // block and the whole are the same test, so the correction is for three.
-    const auto family = [](double p) { return 1 - std::pow(1 - p, 3); };
-    EXPECT_LT(result.noise->p_min, family(0.02296));
-    EXPECT_GT(result.noise->p_min, family(0.02231));
-    EXPECT_NEAR(result.noise->p_pixels, result.noise->p_global, 1e-12);
-    EXPECT_EQ(result.noise->tests, 3U);
-}
-
-TEST(NoiseTest, FalseAlarmsAreAsRareAsAlphaSays) {
-    // 400 pairs of equal truth at alpha 0.05: the test's families overlap, so somewhat fewer than
-    // 20 alarms are to be expected, and more than 38 have a probability below 1e-4.
-    int alarms = 0;
-    double outliers = 0.0;
-    CompareOptions options;
-    options.alpha = 0.05;
-    options.threads = 1;
-    constexpr int pairs = 400;
-    for (unsigned k = 0; k < pairs; ++k) {
-        const Comparison result =
-            compare(noisy(2 * k + 1, 20, 12, 16, 0), noisy(2 * k + 2, 20, 12, 16, 0), options);
-        alarms += result.same ? 0 : 1;
-        outliers += result.noise->outlier_fraction / pairs;
-    }
-    EXPECT_LE(alarms, 38);
-    EXPECT_GE(alarms, 5);
-    EXPECT_NEAR(outliers, 0.05, 0.003);
-}
-
-TEST(NoiseTest, SmallestDetectableBiasIsDetectedAndATenthOfItIsNot) {
-    const Image reference = noisy(1, 64, 64, 16, 0);
-    const double bias = compare(noisy(2, 64, 64, 16, 0), reference).noise->smallest_detectable_bias;
-    EXPECT_GT(bias, 1e-4);
-    EXPECT_LT(bias, 1e-2);
-    int found = 0, false_alarms = 0;
-    constexpr int tries = 40;
-    for (unsigned k = 0; k < tries; ++k) {
-        found += compare(noisy(100 + k, 64, 64, 16, bias), reference).same ? 0 : 1;
-        false_alarms += compare(noisy(200 + k, 64, 64, 16, 0.1 * bias), reference).same ? 0 : 1;
-    }
-    // 95 % for one channel; here all three are biased.
-    EXPECT_GE(found, tries - 3);
-    EXPECT_LE(false_alarms, 2);
-}
-
-TEST(NoiseTest, OneWrongPixelAndOneWrongBlockAreFound) {
-    const Image reference = noisy(1, 64, 64, 16, 0);
-    Image pixel = noisy(2, 64, 64, 16, 0);
-    ASSERT_TRUE(compare(pixel, reference).same);
-    pixel.find("G")->data[1000] += 3.0F;
-    const Comparison one = compare(pixel, reference);
-    EXPECT_FALSE(one.same);
-    EXPECT_LT(one.noise->p_pixels, 1e-6);
-    EXPECT_GT(one.noise->p_global, 0.01);
-
-    // A fifth of a standard deviation of a pair's pixel, everywhere within one block.
-    Image block = noisy(3, 64, 64, 16, 0);
-    for (size_t y = 16; y < 24; ++y) {
-        for (size_t x = 24; x < 32; ++x) block.find("R")->data[y * 64 + x] += 0.12F;
-    }
-    const Comparison several = compare(block, reference);
-    EXPECT_FALSE(several.same);
-    EXPECT_LT(several.noise->p_blocks, 1e-6);
-    EXPECT_LT(several.noise->p_blocks, several.noise->p_pixels);
-}
-
-TEST(NoiseTest, RoundingOfNoiseFreePixelsIsNoDifference) {
-    Image a = picture(4, 4, {"Y", "variance.Y"}, 0.0F);
-    a.attributes["batches"] = 16;
-    a.channels[0].data.assign(16, 0.7F);
-    Image b = a;
-    for (float& value : b.channels[0].data) value = std::nextafter(value, 1.0F);
-    EXPECT_TRUE(compare(a, b).same);
-    for (float& value : b.channels[0].data) value *= 1.0F + 1e-5F;
-    EXPECT_FALSE(compare(a, b).same);
-}
-
-TEST(NoiseTest, ResultDoesNotDependOnThreads) {
-    const Image a = noisy(1, 37, 29, 16, 0), b = noisy(2, 37, 29, 16, 0.001);
-    CompareOptions one, three;
-    one.threads = 1;
-    three.threads = 3;
-    EXPECT_EQ(compare(a, b, one).noise->p_min, compare(a, b, three).noise->p_min);
-    EXPECT_EQ(compare(a, b, one).noise->smallest_detectable_bias,
-              compare(a, b, three).noise->smallest_detectable_bias);
-}
-
-TEST(NoiseTest, BadVariancesAreUserErrors) {
-    const Image good = noisy(1, 8, 8, 16, 0);
-    Image negative = good, no_batches = good;
-    negative.find("variance.G")->data[9] = -1.0F;
-    no_batches.attributes.clear();
-    const std::string message = message_of([&] { compare(good, negative); });
-    EXPECT_NE(message.find("b.exr: channel 'variance.G' at pixel (1, 1)"), std::string::npos)
-        << message;
-    EXPECT_NE(message_of([&] { compare(no_batches, good); }).find("'batches'"), std::string::npos);
-}
-
-TEST(NoiseTest, WithoutVariancesInBothOnlyEqualValuesAreTheSame) {
-    Image a = noisy(1, 8, 8, 16, 0), b = noisy(2, 8, 8, 16, 0);
-    b.channels.resize(3);
-    const Comparison result = compare(a, b);
-    EXPECT_EQ(result.decision, Decision::identical);
-    EXPECT_FALSE(result.same);
-}
-
-TEST(NoiseTest, NotANumberIsADifference) {
-    const Image a = noisy(1, 8, 8, 16, 0);
-    Image b = a;
-    b.find("R")->data[3] = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_TRUE(compare(a, a).same);
-    EXPECT_FALSE(compare(a, b).same);
 }
 
 }  // namespace

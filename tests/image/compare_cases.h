@@ -1,0 +1,40 @@
+// Pictures to compare, and the comparison as the tests call it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "image/compare.h"
+
+namespace drude {
+
+inline Image picture(int width, int height, const std::vector<std::string>& names, float value) {
+    Image image;
+    image.width = width;
+    image.height = height;
+    for (const std::string& name : names) {
+        std::vector<float>& data = image.add(name).data;
+        data.assign(data.size(), value);
+    }
+    return image;
+}
+
+inline std::string message_of(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.cause(), Cause::user);
+        return error.message();
+    }
+    return "";
+}
+
+inline Comparison compare(const Image& a, const Image& b, const CompareOptions& options = {}) {
+    return compare_images(a, b, "a.exr", "b.exr", options);
+}
+
+}  // namespace drude
