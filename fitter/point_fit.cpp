@@ -188,6 +188,17 @@ FittedPoint empty_point(const WavelengthData& data, Estimator estimator) {
     return point;
 }
 
+double chi2_of_normal_incidence(const WavelengthData& data) {
+    const Reflection<double> normal_incidence = {1, 1, -1, 0};
+    double chi2 = 0;
+    for (const AnglePoint& angle : data.points) {
+        double residuals[2] = {0, 0};
+        psi_delta_residuals(angle, normal_incidence, residuals);
+        chi2 += residuals[0] * residuals[0] + residuals[1] * residuals[1];
+    }
+    return chi2;
+}
+
 bool is_at_bound(const FittedPoint& point) {
     return point.identifiable && (point.n <= smallest_n * 1.001 || point.k <= 0);
 }
@@ -235,23 +246,11 @@ FittedPoint fit_point_from(const WavelengthData& data, Estimator estimator, Inde
 
 void refuse_if_unknown(const WavelengthData& data, Estimator estimator, FittedPoint* point) {
     if (!point->identifiable) return;
-    const Reflection<double> normal_incidence = {1, 1, -1, 0};
-    double chi2 = 0;
-    for (const AnglePoint& angle : data.points) {
-        double residuals[2] = {0, 0};
-        if (estimator == Estimator::rho2) {
-            rho2_residual(angle, normal_incidence, residuals);
-        } else {
-            psi_delta_residuals(angle, normal_incidence, residuals);
-        }
-        chi2 += residuals[0] * residuals[0] + residuals[1] * residuals[1];
-    }
-    if (!is_poor(chi2, point->data)) {
+    if (estimator != Estimator::rho2 && !is_poor(chi2_of_normal_incidence(data), point->data)) {
         return refuse(
-            point, fmt::format("within their noise the data are {}, as of every surface "
-                               "near normal incidence: they hold nothing of n and k",
-                               estimator == Estimator::rho2 ? "Psi = 45 degrees"
-                                                            : "Psi = 45 and Delta = 180 degrees"));
+            point,
+            "within their noise the data are Psi = 45 and Delta = 180 degrees, as of every "
+            "surface near normal incidence: they hold nothing of n and k");
     }
     const double length = std::hypot(point->n, point->k);
     if (std::hypot(point->sigma_n, point->sigma_k) <= not_known_at_all * length) return;

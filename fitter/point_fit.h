@@ -23,11 +23,11 @@ FittedPoint fit_point(const WavelengthData& data, Estimator estimator);
 FittedPoint fit_point_from(const WavelengthData& data, Estimator estimator, Index start);
 
 // Refuses a fit of data that hold nothing, whatever number fits them best: where the standard
-// deviations of n and k together exceed the length of n + ik `not_known_at_all` times, and where
-// Psi = 45 and Delta = 180 degrees explain the data within their noise, as they do for every
-// surface near normal incidence. Below that factor the data may still bound n and k from one side,
-// as tan^2 Psi of silver bounds k, which a standard deviation does not show. Only for standard
-// deviations that are those of the data.
+// deviations of n and k together exceed the length of n + ik `not_known_at_all` times, and, where
+// Delta takes part, where Psi = 45 and Delta = 180 degrees explain the data within their noise, as
+// they do for every surface near normal incidence. Below that factor the data may still bound n and
+// k from one side, as tan^2 Psi of silver bounds k, which a standard deviation does not show. Only
+// for standard deviations that are those of the data.
 inline constexpr double not_known_at_all = 100;
 void refuse_if_unknown(const WavelengthData& data, Estimator estimator, FittedPoint* point);
 
