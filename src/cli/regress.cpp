@@ -100,10 +100,9 @@ Json to_json(const ReferenceManifest& manifest, const RegressResult& run,
 
 void print(const ReferenceManifest& manifest, const RegressResult& run) {
     for (const CaseResult& result : run.cases) {
-        if (result.good()) continue;
+        if (result.good() || result.status == CaseStatus::skipped) continue;
         fmt::print("{}: {}\n  {}\n", result.declared.name, status_word(result.status),
                    result.message);
-        if (result.status == CaseStatus::skipped) continue;
         fmt::print("  look:   {}\n          {}\n  accept: {}\n", result.render_command,
                    result.compare_command, result.update_command);
     }
@@ -115,6 +114,9 @@ void print(const ReferenceManifest& manifest, const RegressResult& run) {
     }
     fmt::print("{} of {} cases of {} passed in {:.1f} s", run.count(CaseStatus::passed),
                run.cases.size(), manifest.folder, run.seconds);
+    if (run.count(CaseStatus::skipped) > 0) {
+        fmt::print(", interrupted before {}", run.count(CaseStatus::skipped));
+    }
     if (run.count(CaseStatus::passed) > 0) {
         fmt::print("; smallest p of these {:.3g} against {:.3g}, largest invisible bias {:.2g}",
                    smallest, run.alpha_each, largest);
