@@ -33,8 +33,7 @@ Command report_command() {
     command.summary = "Make a study's page and figures again, without rendering";
     command.description =
         "Reads the folder that `drude reproduce` wrote (study.json, measurements, fits, EXRs) and "
-        "writes its page index.html, tables and figures anew; nothing is measured, fitted or "
-        "rendered.\n\n"
+        "writes its page index.html, tables and figures anew; nothing is measured or rendered.\n\n"
         "index.html is one self-contained file. It carries the pictures as numbers: their pairs "
         "can be zoomed, exposed, subtracted and read pixel by pixel, S0 to S3 and spectra. "
         "--figure N makes one figure of Berger, Weidlich, Wilkie & Magnor 2012 alone: 5 (copper), "

@@ -102,10 +102,19 @@ FigurePanel ratio_panel(const std::string& name, const Measurement& measurement,
     plot.y.label = "θ (degrees)";
     plot.z.label = "|ρ|² = |rp/rs|²";
     const std::vector<double> angles = measurement.angles();
+    if (angles.size() < 2 || *plot.x.high - *plot.x.low < 5) {
+        user_error(
+            "the figure of {} wants two angles of incidence and 5 nm at least; found {} and "
+            "{:g} nm",
+            name, angles.size(), *plot.x.high - *plot.x.low);
+    }
     plot.y.low = angles.front();
     plot.y.high = angles.back();
     for (double nm = *plot.x.low; nm <= *plot.x.high; nm += 5) plot.grid_x.push_back(nm);
-    for (double deg = *plot.y.low; deg <= *plot.y.high; deg += 1) plot.grid_y.push_back(deg);
+    constexpr int steps = 35;
+    for (int i = 0; i <= steps; ++i) {
+        plot.grid_y.push_back(std::lerp(*plot.y.low, *plot.y.high, i / double{steps}));
+    }
     for (const double deg : plot.grid_y) {
         for (const double nm : plot.grid_x) {
             plot.grid_z.push_back(literature_ratio(literature, nm, deg));

@@ -114,7 +114,9 @@ void section_pictures(Page& page, const Study& study, const StudyPage& content) 
         "Half-spheres in one environment, one seed for both of a pair, so that the difference is "
         "the metals' alone. Drag the divider, or focus it and use the arrow keys. The cursor, the "
         "zoom (double click, Ctrl and wheel, or + and −) and the exposure are common to all five: "
-        "what is read out on one metal is read out on every other at the same place.");
+        "what is read out on one metal is read out on every other at the same place. S3 and the "
+        "difference of angles are nearly empty, as they should be: a convex metal in unpolarised "
+        "light polarises along its rim whatever its n and k.");
     PageTable table;
     table.caption =
         "Over the pixels that differ: log10 of the mean |fitted − literature| of linear R, G, B "

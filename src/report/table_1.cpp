@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "base/error.h"
 #include "report/markup.h"
 
 namespace drude {
@@ -67,7 +68,8 @@ std::string rows_of(const Table1Metal& metal) {
 std::string remarks(const Table1Metal& metal) {
     std::string text;
     if (metal.fit.blocks.empty()) {
-        text = "The study has no such sample: printed values only.";
+        text = metal.refusal.empty() ? "The study has no such sample: printed values only."
+                                     : "Ours was refused: " + metal.refusal + ".";
     } else {
         const PaperFitBlock& block = metal.fit.blocks.back();
         text = fmt::format(
@@ -103,7 +105,11 @@ std::vector<Table1Metal> table_1(const Study& study) {
         for (const StudyMetal& ours : study.metals) {
             if (paper_metal_of(ours.sample_set) != metal.printed) continue;
             metal.sample = fmt::format("{} ({})", ours.name, ours.sample_set);
-            metal.fit = fit_like_the_paper(ours.measurement, {});
+            try {
+                metal.fit = fit_like_the_paper(ours.measurement, {});
+            } catch (const Error& error) {
+                metal.refusal = error.message();
+            }
         }
         metals.push_back(std::move(metal));
     }

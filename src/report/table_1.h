@@ -14,8 +14,9 @@ struct Table1Metal {
     std::string name;    // "Copper", or the paper's where the study has no such sample
     std::string sample;  // what the measurement is of; empty where there is none
     const PaperMetal* printed = nullptr;
-    PaperFit fit;      // the paper's procedure with the study's measurement; no blocks: no sample
-    PaperCheck check;  // of the printed numbers by themselves
+    PaperFit fit;         // the paper's procedure with the study's measurement, or no blocks and
+    std::string refusal;  // why not; empty where there is no sample
+    PaperCheck check;     // of the printed numbers by themselves
 };
 
 // In the paper's order, one a column of the table: with the study's measurement of that metal

@@ -290,6 +290,35 @@ CONTRAST = r"""
 })()
 """
 
+# The same of a figure's file: its text and its series on its ground.
+SVG_CONTRAST = r"""
+(() => {
+  const channel = (v) => (v /= 255) <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
+  const level = (text) => {
+    const c = text.match(/[\d.]+/g).map(Number);
+    return 0.2126 * channel(c[0]) + 0.7152 * channel(c[1]) + 0.0722 * channel(c[2]);
+  };
+  const ground = level(getComputedStyle(document.querySelector('.sheet')).fill);
+  const ratio = (paint) => {
+    const ink = level(paint);
+    return (Math.max(ink, ground) + 0.05) / (Math.min(ink, ground) + 0.05);
+  };
+  const low = [];
+  for (const t of document.querySelectorAll('text')) {
+    const got = ratio(getComputedStyle(t).fill);
+    if (got < 4.5) low.push(`${t.textContent} ${got.toFixed(2)}`);
+  }
+  for (const e of document.querySelectorAll('[style]')) {
+    for (const paint of ['stroke', 'fill']) {
+      if (!e.style[paint]) continue;
+      const got = ratio(getComputedStyle(e)[paint]);
+      if (got < 3) low.push(`${e.tagName} ${got.toFixed(2)}`);
+    }
+  }
+  return [...new Set(low)];
+})()
+"""
+
 NAMES = r"""
 (() => {
   const bad = [];
@@ -378,6 +407,11 @@ def main():
             title = browser.evaluate("document.documentElement.tagName === 'svg' && "
                                      "document.querySelector('title').textContent")
             check(bool(title) and f"Figure {figure}" in title, f"{svg.name}: {title}")
+            for scheme in ("dark", "light"):
+                browser.prefer(scheme)
+                browser.settle()
+                low = browser.evaluate(SVG_CONTRAST)
+                check(not low, f"{svg.name} {scheme}: contrast {low[:4]}")
             check(not browser.problems(), f"{svg.name}: no errors {browser.problems()[:3]}")
             shot = browser.send("Page.captureScreenshot", format="png")
             (artifacts / f"figure-{figure}.png").write_bytes(base64.b64decode(shot["data"]))

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "report/claims.h"
 #include "report/figure_9.h"
 #include "report/packed_layers.h"
+#include "report/paper_figures.h"
 #include "report/picture_data.h"
 #include "report/table_1.h"
 
@@ -308,6 +310,13 @@ TEST(Table1, StandsBesideThePapers) {
         EXPECT_NE(html.find(text), std::string::npos) << text;
     }
     EXPECT_EQ(html.find("nan"), std::string::npos);
+    // One angle holds too little: said, and the table stands.
+    auto& rows = study.metals[0].measurement.rows;
+    rows.erase(std::remove_if(rows.begin(), rows.end(),
+                              [](const MeasurementRow& row) { return row.angle_deg != 60; }),
+               rows.end());
+    EXPECT_NE(table_1_markup(table_1(study)).find("Ours was refused"), std::string::npos);
+    EXPECT_THROW(paper_figure(study, 5), Error);
 }
 
 TEST(Claims, FiguresOfAPerfectFit) {

@@ -273,6 +273,10 @@ TEST(Page, HoldsWhatItIsGivenEscaped) {
     page.table(table);
     page.picture({small_png(), "alt \"text\""}, "cap <i>");
     page.comparison({small_png(), "left"}, "fitted", {small_png(), "right"}, "literature", "");
+    page.markup("<b>taken as it is</b>");
+    page.style(".mine{color:red}");
+    page.script("/*mine*/");
+    page.details("folded <up>", table);
     page.begin_grid();  // never ended: html() closes it
     page.svg(svg_plot(simple_plot()), "");
     const std::string html = page.html();
@@ -286,6 +290,9 @@ TEST(Page, HoldsWhatItIsGivenEscaped) {
     EXPECT_TRUE(holds(html, base64(small_png())));
     EXPECT_TRUE(holds(html, "<input type=\"range\""));
     EXPECT_TRUE(holds(html, "aria-label=\"Divider between fitted (left) and literature (right)\""));
+    for (const char* text : {"<b>taken as it is</b>", ".mine{color:red}", "/*mine*/",
+                             "<summary>folded &lt;up&gt;</summary>"})
+        EXPECT_TRUE(holds(html, text)) << text;
     EXPECT_TRUE(holds(html, "prefers-color-scheme:dark"));
     EXPECT_TRUE(holds(html, "@media print"));
     EXPECT_EQ(count(html, "<div"), count(html, "</div>"));

@@ -137,7 +137,7 @@ const differences = {
     unit: 'root mean square over the spectrum of S0, relative to the literature’s'},
   dolp: {map: 'diverging', low: -0.1, high: 0.1,
     unit: 'degree of linear polarisation, fitted − literature'},
-  aolp: {map: 'diverging', low: -10, high: 10,
+  aolp: {map: 'diverging', low: -1, high: 1,
     unit: 'angle of linear polarisation, fitted − literature, degrees; grey: below 1 % polarised'},
 };
 
@@ -359,7 +359,7 @@ function readOut() {
     }
     pair.forEach((r, which) => {
       const l = linear(meanY(r, 0, first, p), meanY(r, 1, rest, q), meanY(r, 2, rest, q));
-      rows += '<tr>' + (which ? '' : '<th scope="rowgroup" rowspan="2">Linear</th>') +
+      rows += '<tr>' + (which ? '' : '<th scope="rowgroup" rowspan="2">Pol.</th>') +
         `<th scope="row" class="of-${which}">${names[which]}</th><td colspan="3">` +
         `DoLP ${shown(100 * l.degree)} %, AoLP ` +
         `${l.degree >= 0.001 ? l.angle.toFixed(2) + '°' : '–'}</td></tr>`;
