@@ -1,6 +1,6 @@
 #include "fitter/film_fit.h"
 
-#include <ceres/ceres.h>
+#include <ceres/jet.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,111 +9,34 @@
 #include "base/error.h"
 #include "base/executor.h"
 #include "fitter/film_search.h"
+#include "fitter/film_solver.h"
 #include "fitter/fit_data.h"
 #include "fitter/identifiability.h"
-#include "fitter/offset_fit.h"
+#include "fitter/roughness.h"
 
 namespace drude {
 
 namespace {
 
-constexpr size_t starts_refined = 8;
+constexpr size_t starts_refined = 8, averaged_starts = 3;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-using FilmCost = ceres::AutoDiffCostFunction<FilmResiduals, ceres::DYNAMIC, 1, 1, 1>;
-
-struct FilmSolution {
-    double values[3] = {0, 0, 0};  // thickness in nm, porosity, offset in radians
-    double chi2 = std::numeric_limits<double>::infinity();
-    bool converged = false;
-};
-
-struct FreeParameters {
-    bool porosity = true, offset = false;
-    bool is_free(int parameter) const {
-        return parameter == 0 || (parameter == 1 ? porosity : offset);
-    }
-    int count() const { return 1 + (porosity ? 1 : 0) + (offset ? 1 : 0); }
-};
-
-FilmSolution refine(const FilmProblem& problem, const FilmStart& start, FreeParameters free,
-                    double largest_nm) {
-    FilmSolution solution;
-    double* const values = solution.values;
-    values[0] = start.thickness_nm;
-    values[1] = start.porosity;
-    ceres::Problem least_squares;
-    least_squares.AddResidualBlock(
-        new FilmCost(new FilmResiduals{&problem}, problem.residual_count()), nullptr, values,
-        values + 1, values + 2);
-    const double lower[] = {0, 0, -largest_angle_offset};
-    const double upper[] = {largest_nm, largest_porosity, largest_angle_offset};
-    for (int j = 0; j < 3; ++j) {
-        if (free.is_free(j)) {
-            least_squares.SetParameterLowerBound(values + j, 0, lower[j]);
-            least_squares.SetParameterUpperBound(values + j, 0, upper[j]);
-        } else {
-            least_squares.SetParameterBlockConstant(values + j);
-        }
-    }
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;
-    options.max_num_iterations = 200;
-    options.function_tolerance = 1e-12;
-    options.parameter_tolerance = 1e-12;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &least_squares, &summary);
-    solution.chi2 = 2 * summary.final_cost;
-    solution.converged =
-        summary.termination_type == ceres::CONVERGENCE && std::isfinite(summary.final_cost);
-    return solution;
-}
-
-// Row-major residuals x free parameters.
-std::vector<double> jacobian_at(const FilmProblem& problem, const FilmSolution& solution,
-                                FreeParameters free, std::vector<double>* residuals) {
-    FilmCost cost(new FilmResiduals{&problem}, problem.residual_count());
-    const size_t rows = static_cast<size_t>(problem.residual_count());
-    residuals->assign(rows, 0.0);
-    std::vector<std::vector<double>> columns(3, std::vector<double>(rows));
-    const double* parameters[] = {solution.values, solution.values + 1, solution.values + 2};
-    double* jacobians[] = {columns[0].data(), columns[1].data(), columns[2].data()};
-    if (!cost.Evaluate(parameters, residuals->data(), jacobians)) return {};
-    std::vector<double> jacobian;
-    for (size_t i = 0; i < rows; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            if (free.is_free(j)) jacobian.push_back(columns[static_cast<size_t>(j)][i]);
-        }
-    }
-    return jacobian;
-}
-
-void set_common(const FilmSolution& solution, FreeParameters free, const Identifiability& known,
-                double sigma_scale, double largest_nm, FitResult* result) {
-    struct Declared {
-        const char* name;
-        const char* unit;
-        double scale, lower, upper;  // in the parameter's own unit
-    };
-    const Declared declared[] = {
-        {"thickness", "nm", 1, 0, largest_nm},
-        {"porosity", "", 1, 0, largest_porosity},
-        {"angle offset", "deg", 180 / pi, -largest_angle_offset, largest_angle_offset}};
+void set_common(const FilmSolution& solution, const FreeFilmParameters& free,
+                const Identifiability& known, double sigma_scale, const FilmRange& range,
+                FitResult* result) {
     size_t column = 0;
-    for (int j = 0; j < 3; ++j) {
-        if (!free.is_free(j)) continue;
-        const Declared& d = declared[j];
+    for (size_t j = 0; j < film_parameter_count; ++j) {
+        if (!free[j]) continue;
+        const FilmParameterInfo& info = film_parameters()[j];
         FittedParameter parameter;
-        parameter.name = d.name;
-        parameter.unit = d.unit;
+        parameter.name = info.name;
+        parameter.unit = info.unit;
         parameter.identifiable = known.identifiable[column];
-        parameter.value = parameter.identifiable ? solution.values[j] * d.scale : not_known;
-        parameter.sigma = known.sigma[column] * d.scale * sigma_scale;
-        const double margin = 1e-9 * (d.upper - d.lower);
-        parameter.at_bound =
-            solution.values[j] <= d.lower + margin || solution.values[j] >= d.upper - margin;
+        parameter.value = parameter.identifiable ? solution.values[j] * info.scale : not_known;
+        parameter.sigma = known.sigma[column] * info.scale * sigma_scale;
+        const double margin = 1e-9 * (range.upper[j] - range.lower[j]);
+        parameter.at_bound = solution.values[j] <= range.lower[j] + margin ||
+                             solution.values[j] >= range.upper[j] - margin;
         result->common.push_back(parameter);
         ++column;
     }
@@ -128,7 +51,7 @@ void set_points(const FilmProblem& problem, const FilmSolution& solution, double
         FittedPoint point;
         point.wavelength_nm = problem.groups[i].wavelength_nm;
         const auto index =
-            film_index(problem.material[i], ceres::Jet<double, 1>(solution.values[1], 0));
+            film_index(problem.centre(i).material, ceres::Jet<double, 1>(solution.values[1], 0));
         point.n = index.n.a;
         point.k = index.k.a;
         point.sigma_n = std::abs(index.n.v[0]) * sigma_porosity;
@@ -142,7 +65,8 @@ void set_points(const FilmProblem& problem, const FilmSolution& solution, double
     }
 }
 
-void set_layer(const FilmSolution& solution, const FitOptions& options, FitResult* result) {
+void set_layer(const FilmProblem& problem, const FilmSolution& solution, const FitOptions& options,
+               FitResult* result) {
     FilmLayer layer;
     layer.thickness_nm = solution.values[0];
     OpticalConstants& constants = layer.constants;
@@ -154,12 +78,29 @@ void set_layer(const FilmSolution& solution, const FitOptions& options, FitResul
     if (!options.film.material.citation.empty()) {
         constants.citation += "; " + options.film.material.citation;
     }
-    for (const FittedPoint& point : result->points) {
-        constants.wavelength_nm.push_back(point.wavelength_nm);
-        constants.n.push_back(point.n);
-        constants.k.push_back(point.k);
-        constants.sigma_n.push_back(point.sigma_n);
-        constants.sigma_k.push_back(point.sigma_k);
+    const auto add = [&](double nm, const Index& dense, const FittedPoint& nearest) {
+        const auto index = film_index(dense, solution.values[1]);
+        constants.wavelength_nm.push_back(nm);
+        constants.n.push_back(index.n);
+        constants.k.push_back(index.k);
+        constants.sigma_n.push_back(nearest.sigma_n);
+        constants.sigma_k.push_back(nearest.sigma_k);
+    };
+    // As far as the slit reaches.
+    const BandNode& first = problem.bands.front().front();
+    const BandNode& last = problem.bands.back().back();
+    const auto& points = result->points;
+    if (first.wavelength_nm < points.front().wavelength_nm) {
+        add(first.wavelength_nm, first.material, points.front());
+    }
+    for (size_t i = 0; i < points.size(); ++i) {
+        add(points[i].wavelength_nm, problem.centre(i).material, points[i]);
+    }
+    if (last.wavelength_nm > points.back().wavelength_nm) {
+        add(last.wavelength_nm, last.material, points.back());
+    }
+    if (solution.values[4] > 0) {
+        result->layers.push_back(roughness_layer(constants, solution.values[4]));
     }
     result->layers.push_back(std::move(layer));
     result->substrate = options.film.substrate;
@@ -177,7 +118,13 @@ void set_rival(const std::vector<FilmSolution>& solutions, FitResult* result) {
     }
 }
 
-void warn(FitResult* result, bool unweighted) {
+void warn(FitResult* result, const FitOptions& options) {
+    const bool unweighted = options.unweighted;
+    if (options.film.spread_nm.given()) {
+        result->warnings.push_back(
+            "the material holds the mean thickness: its spread belongs to this beam, and is not "
+            "written");
+    }
     for (const FittedParameter& parameter : result->common) {
         if (!parameter.identifiable) {
             result->warnings.push_back(
@@ -214,22 +161,49 @@ void warn(FitResult* result, bool unweighted) {
     }
 }
 
-}  // namespace
-
-FilmProblem make_film_problem(const Measurement& measurement, const FitOptions& options) {
-    FilmProblem problem;
-    problem.groups = group_by_wavelength(measurement, options);
-    problem.estimator = options.estimator == "rho2" ? Estimator::rho2 : Estimator::psi_delta;
-    for (const WavelengthData& group : problem.groups) {
-        problem.substrate.push_back(options.film.substrate.at(group.wavelength_nm));
-        problem.material.push_back(options.film.material.at(group.wavelength_nm));
-    }
-    return problem;
+// From every start, best first.
+std::vector<FilmSolution> solve_all(const FilmProblem& problem,
+                                    const std::vector<FilmValues>& starts,
+                                    const FreeFilmParameters& free, const FitOptions& options) {
+    const FilmRange range = film_range(problem, options);
+    std::vector<FilmSolution> solutions(starts.size());
+    parallel_for(starts.size(), options.threads,
+                 [&](size_t i) { solutions[i] = solve_film(problem, starts[i], free, range); });
+    std::stable_sort(solutions.begin(), solutions.end(),
+                     [](const FilmSolution& a, const FilmSolution& b) {
+                         if (a.converged != b.converged) return a.converged;
+                         return a.chi2 < b.chi2;
+                     });
+    return solutions;
 }
 
+// An average costs a hundred reflections a datum: only the starts that do best without it are worth
+// it, and the slit is divided as finely as films of their thickness ask for.
+FilmProblem prepare_average(const Measurement& measurement, const FilmProblem& coherent,
+                            const FitOptions& options, std::vector<FilmValues>* starts) {
+    FreeFilmParameters free = free_film_parameters(options);
+    free[3] = free[4] = false;
+    const std::vector<FilmSolution> even = solve_all(coherent, *starts, free, options);
+    FitOptions as_thick = options;
+    as_thick.film.largest_thickness_nm = 1;
+    starts->clear();
+    for (size_t i = 0; i < std::min(averaged_starts, even.size()); ++i) {
+        const FilmValues& from = even[i].values;
+        starts->push_back(film_start({from[0], from[1], 0}, coherent, options));
+        as_thick.film.largest_thickness_nm =
+            std::max(as_thick.film.largest_thickness_nm, 1.2 * from[0]);
+    }
+    return make_film_problem(measurement, as_thick);
+}
+
+}  // namespace
+
 FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
-    const FilmProblem problem = make_film_problem(measurement, options);
-    const FreeParameters free{!options.film.porosity.has_value(), options.fit_angle_offset};
+    const FilmProblem coherent = make_coherent_film_problem(measurement, options);
+    const bool averaged = options.film.bandwidth_nm > 0 || options.film.spread_nm.given();
+    FilmProblem problem = averaged ? coherent : make_film_problem(measurement, options);
+    const FreeFilmParameters free = free_film_parameters(options);
+    const FilmRange range = film_range(problem, options);
     FitResult result;
     result.estimator = options.estimator;
     result.model = options.model;
@@ -240,7 +214,7 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
         if (!warning.empty()) result.warnings.push_back(warning);
     }
     result.data = problem.residual_count();
-    result.parameters = free.count();
+    result.parameters = static_cast<int>(std::count(free.begin(), free.end(), true));
 
     std::vector<double> porosities;
     if (options.film.porosity) {
@@ -252,17 +226,12 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
     const std::vector<FilmStart> starts =
         guess ? std::vector<FilmStart>{{guess->thickness_nm,
                                         options.film.porosity.value_or(guess->porosity), 0}}
-              : search_film(problem, porosities, options.film.largest_thickness_nm, starts_refined,
+              : search_film(coherent, porosities, options.film.largest_thickness_nm, starts_refined,
                             options.threads);
-    std::vector<FilmSolution> solutions(starts.size());
-    parallel_for(starts.size(), options.threads, [&](size_t i) {
-        solutions[i] = refine(problem, starts[i], free, options.film.largest_thickness_nm);
-    });
-    std::stable_sort(solutions.begin(), solutions.end(),
-                     [](const FilmSolution& a, const FilmSolution& b) {
-                         if (a.converged != b.converged) return a.converged;
-                         return a.chi2 < b.chi2;
-                     });
+    std::vector<FilmValues> values;
+    for (const FilmStart& start : starts) values.push_back(film_start(start, problem, options));
+    if (averaged) problem = prepare_average(measurement, coherent, options, &values);
+    const std::vector<FilmSolution> solutions = solve_all(problem, values, free, options);
     if (solutions.empty() || !solutions.front().converged) {
         throw Error(Cause::answer_is_no,
                     fmt::format("no fit: least squares converged from none of {} starts",
@@ -270,8 +239,8 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
     }
     const FilmSolution& best = solutions.front();
     std::vector<double> residuals;
-    const std::vector<double> jacobian = jacobian_at(problem, best, free, &residuals);
-    const Identifiability known = analyse_jacobian(jacobian, result.data, free.count());
+    const std::vector<double> jacobian = film_jacobian(problem, best, free, &residuals);
+    const Identifiability known = analyse_jacobian(jacobian, result.data, result.parameters);
     // Beyond the range that was searched a standard deviation says that nothing is known: what
     // rounding leaves of a vanishing derivative still has a rank.
     if (jacobian.empty() || !known.identifiable[0] ||
@@ -283,11 +252,13 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
     for (const double residual : residuals) result.chi2 += residual * residual;
     const double scale =
         options.unweighted && result.dof() > 0 ? std::sqrt(result.chi2_reduced()) : 1;
-    set_common(best, free, known, scale, options.film.largest_thickness_nm, &result);
-    set_points(problem, best, free.porosity ? known.sigma[1] * scale : 0, residuals, &result);
-    set_layer(best, options, &result);
+    set_common(best, free, known, scale, range, &result);
+    set_points(problem, best, free[1] ? known.sigma[1] * scale : 0, residuals, &result);
+    set_layer(problem, best, options, &result);
+    result.thickness_spread_nm = best.values[3];
+    result.bandwidth_nm = options.film.bandwidth_nm;
     set_rival(solutions, &result);
-    warn(&result, options.unweighted);
+    warn(&result, options);
     return result;
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr size_t searched_wavelengths = 120;
 
 double real_index(const FilmProblem& problem, size_t wavelength, double porosity) {
-    return film_index(problem.material[wavelength], porosity).n;
+    return film_index(problem.centre(wavelength).material, porosity).n;
 }
 
 // The wave's normal component in the film over lambda, in 1/nm.
@@ -87,7 +87,8 @@ double chi2_of(const FilmProblem& problem, size_t stride, double thickness_nm, d
     std::vector<double> residuals;
     for (size_t i = 0; i < problem.groups.size(); i += stride) {
         residuals.resize(2 * problem.groups[i].points.size());
-        if (!film_residuals(problem, i, thickness_nm, porosity, 0.0, residuals.data())) {
+        if (!film_residuals<double>(problem, i, {thickness_nm, porosity, 0, 0, 0},
+                                    residuals.data())) {
             return std::numeric_limits<double>::infinity();
         }
         const size_t used =

@@ -6,12 +6,14 @@
 
 #include "base/error.h"
 #include "base/executor.h"
+#include "fitter/dispersion_fit.h"
 #include "fitter/film_fit.h"
 #include "fitter/fit_data.h"
 #include "fitter/model_ladder.h"
 #include "fitter/offset_fit.h"
 #include "fitter/point_fit.h"
 #include "fitter/robust_fit.h"
+#include "fitter/roughness.h"
 
 namespace drude {
 
@@ -66,6 +68,12 @@ void check_structure(const FitOptions& options) {
             "expected psi-delta or rho2",
             options.model);
     }
+    if (!options.dispersion.empty() && (film || options.estimator == "inversion")) {
+        user_error("{}", film ? "the model film takes n and k of its materials as known, found a "
+                                "dispersion too; expected it with bulk, overlayer or auto"
+                              : "the estimator inversion solves every wavelength by itself, found "
+                                "a dispersion; expected psi-delta or rho2");
+    }
     if (!film) return;
     if (options.film.substrate.wavelength_nm.empty()) {
         user_error("the model film takes a known substrate, found none (--substrate Al-Rakic)");
@@ -85,6 +93,36 @@ void check_structure(const FitOptions& options) {
                    start->porosity >= 0 && start->porosity <= 0.95)) {
         user_error("found a start of {} nm with the porosity {}, expected 0 to {} nm and 0 to 0.95",
                    start->thickness_nm, start->porosity, largest);
+    }
+}
+
+void check_roughness(const FitOptions& options) {
+    const KnownOrFitted& roughness = options.roughness_nm;
+    if (!(roughness.value >= 0 && roughness.value <= 100)) {
+        user_error("found a roughness of {} nm, expected 0 to 100", roughness.value);
+    }
+    if (roughness.given() && options.estimator == "inversion") {
+        user_error(
+            "the estimator inversion solves a bare, smooth surface only, found a roughness; "
+            "expected psi-delta or rho2");
+    }
+    if (roughness.fitted && options.model != "film" && options.model != "auto") {
+        throw Error(Cause::answer_is_no,
+                    "a rough layer on unknown n and k cannot be told from other n and k: give its "
+                    "thickness (--roughness 3), or fit it on a film of known materials");
+    }
+    const KnownOrFitted& spread = options.film.spread_nm;
+    const double bandwidth = options.film.bandwidth_nm;
+    if (!(spread.value >= 0 && spread.value <= 1000)) {
+        user_error("found a thickness spread of {} nm, expected 0 to 1000", spread.value);
+    }
+    if (!(bandwidth >= 0 && bandwidth <= 50)) {
+        user_error("found a bandwidth of {} nm, expected 0 to 50", bandwidth);
+    }
+    const bool film = options.model == "film" || options.model == "auto";
+    if ((spread.given() || bandwidth > 0) && !film) {
+        user_error("a thickness spread or a bandwidth belongs to the model 'film', found '{}'",
+                   options.model);
     }
 }
 
@@ -120,6 +158,7 @@ void check_options(const FitOptions& options) {
                    options.first_nm, options.last_nm);
     }
     check_structure(options);
+    check_roughness(options);
     if (!options.lobe.empty()) {
         throw Error(Cause::answer_is_no,
                     "Psi and Delta hold nothing about the lobe '" + options.lobe +
@@ -137,6 +176,18 @@ std::string wavelength_list(const std::vector<double>& wavelengths) {
     }
     if (wavelengths.size() > 5) list += ", ...";
     return list + " nm";
+}
+
+OpticalConstants constants_of(const std::vector<FittedPoint>& points) {
+    OpticalConstants constants;
+    constants.name = "the fitted surface";
+    for (const FittedPoint& point : points) {
+        if (!point.identifiable) continue;
+        constants.wavelength_nm.push_back(point.wavelength_nm);
+        constants.n.push_back(point.n);
+        constants.k.push_back(point.k);
+    }
+    return constants;
 }
 
 // Weights that say nothing of the noise: the residuals themselves say how large it is.
@@ -179,6 +230,15 @@ void warn_about_result(FitResult* result, bool unweighted) {
             fmt::format("a standard deviation exceeds its value at {} of {} wavelengths ({})",
                         vague.size(), result->points.size(), wavelength_list(vague)));
     }
+    for (const FittedParameter& parameter : result->common) {
+        if (!parameter.identifiable) {
+            result->warnings.push_back(fmt::format(
+                "the data do not determine the {}: it is not reported", parameter.name));
+        } else if (parameter.at_bound) {
+            result->warnings.push_back(fmt::format("the {} ends at the bound {:.6g} of its range",
+                                                   parameter.name, parameter.value));
+        }
+    }
     if (result->dof() <= 0) {
         result->warnings.push_back(
             "as many parameters as data: they cannot contradict the model, there is no reduced "
@@ -190,9 +250,10 @@ void warn_about_result(FitResult* result, bool unweighted) {
     const double scatter = 3 * std::sqrt(2.0 / result->dof());
     if (reduced > 1 + scatter) {
         result->warnings.push_back(fmt::format(
-            "reduced chi-square {:.3g}, expected 1 +- {:.2g}: a film, roughness, a wrong angle of "
-            "incidence, or standard deviations stated too small",
-            reduced, scatter));
+            "reduced chi-square {:.3g}, expected 1 +- {:.2g}: {}a film, roughness, a wrong angle "
+            "of incidence, or standard deviations stated too small",
+            reduced, scatter,
+            result->dispersion.empty() ? "" : "a formula that the constants do not follow, "));
     }
 }
 
@@ -230,7 +291,20 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
                                                                   groups.back().wavelength_nm);
         if (!warning.empty()) result.warnings.push_back(warning);
     }
-    if (options.fit_angle_offset) {
+    if (!options.dispersion.empty()) {
+        DispersionFit fit =
+            fit_dispersion(groups, estimator, options.dispersion, options.fit_angle_offset,
+                           options.unweighted, options.threads);
+        result.dispersion = fit.name;
+        result.points = std::move(fit.points);
+        result.parameters = static_cast<int>(fit.parameters.size());
+        result.common = std::move(fit.parameters);
+        result.common_correlation = std::move(fit.correlation);
+        result.condition = fit.condition;
+        result.ladder = std::move(fit.ladder);
+        result.chi2 = fit.chi2;
+        result.data = fit.data;
+    } else if (options.fit_angle_offset) {
         OffsetFit fit = fit_with_offset(groups, estimator, options.threads);
         result.points = std::move(fit.points);
         result.common = {fit.offset};
@@ -241,7 +315,10 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
                      [&](size_t i) { result.points[i] = fit_point(groups[i], estimator); });
     }
 
-    for (const FittedPoint& point : result.points) {
+    for (size_t i = 0; i < groups.size() && options.dispersion.empty(); ++i) {
+        FittedPoint& point = result.points[i];
+        // Unweighted, the standard deviations are in units that only the residuals will tell.
+        if (!options.unweighted) refuse_if_unknown(groups[i], estimator, &point);
         if (!point.identifiable) continue;
         result.chi2 += point.chi2;
         result.data += point.data;
@@ -253,6 +330,10 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
                                 "and k ({})",
                                 measurement.file.empty() ? "measurement" : measurement.file,
                                 result.points.size(), result.points.front().reason));
+    }
+    if (options.roughness_nm.value > 0) {
+        result.layers.push_back(
+            roughness_layer(constants_of(result.points), options.roughness_nm.value));
     }
     if (options.unweighted && result.dof() > 0) scale_sigmas(&result);
     warn_about_result(&result, options.unweighted);

@@ -16,6 +16,14 @@
 
 namespace drude {
 
+// A quantity that is known, or fitted.
+struct KnownOrFitted {
+    double value = 0;
+    bool fitted = false;
+
+    bool given() const { return fitted || value != 0; }
+};
+
 struct FilmGuess {
     double thickness_nm = 0, porosity = 0;
 };
@@ -27,6 +35,11 @@ struct FilmModel {
     OpticalConstants material;
     std::optional<double> porosity;  // volume fraction of the pores, in [0, 0.95]; empty: fitted
     double largest_thickness_nm = 10000;  // the search ends here; in [1, 1e5]
+    // Standard deviation of the thickness over the beam, in nm, at least 0: it takes contrast from
+    // the fringes and depolarises.
+    KnownOrFitted spread_nm;
+    // Of the spectrometer's slit, full width at half maximum of a Gaussian, in nm; in [0, 50].
+    double bandwidth_nm = 0;
     // Where least squares starts, instead of the search: it finds the minimum of this basin only,
     // which is some per cent of the thickness wide. Within the ranges of the two.
     std::optional<FilmGuess> start;
@@ -42,6 +55,13 @@ struct FitOptions {
     std::string model = "bulk";
     std::vector<FilmLayer> overlayers;  // the first is the outermost
     FilmModel film;
+    // Roughness as a layer of half void, half of what lies below it (Bruggeman), on the film of the
+    // model film, on what is fitted otherwise: its thickness in nm, at least 0. Fitted for films
+    // only: a thin layer on unknown n and k is indistinguishable from other n and k.
+    KnownOrFitted roughness_nm;
+    // What n and k of the models bulk and overlayer follow over the wavelengths: "" for no formula,
+    // every wavelength by itself; otherwise what fit_dispersion() takes.
+    std::string dispersion;
     // A common error of the angles of incidence as one more parameter; takes three angles or more.
     bool fit_angle_offset = false;
     std::string lobe;  // refused: Psi and Delta hold nothing about roughness
@@ -64,7 +84,8 @@ const std::vector<std::string>& estimator_names();
 const std::vector<std::string>& fit_model_names();
 
 // Fits without start values. The models bulk and overlayer take every wavelength by itself, with
-// n >= 1e-6 and k >= 0; film takes all of them together, from a search of its own.
+// n >= 1e-6 and k >= 0, or follow a dispersion formula; film takes all wavelengths together, from a
+// search of its own.
 //
 // Throws Error (user) for an unknown estimator or model, for options that the model lacks, has no
 // use for or that are out of range, and for what Measurement::check forbids; Error (answer_is_no)

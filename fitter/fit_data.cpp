@@ -95,8 +95,10 @@ std::vector<WavelengthData> group_by_wavelength(const Measurement& measurement,
     std::vector<WavelengthData> groups;
     for (const auto& [row, weight] : rows) {
         if (groups.empty() || groups.back().wavelength_nm != row.wavelength_nm) {
-            groups.push_back(
-                {row.wavelength_nm, {}, layers_at(options.overlayers, row.wavelength_nm)});
+            groups.push_back({row.wavelength_nm,
+                              {},
+                              layers_at(options.overlayers, row.wavelength_nm),
+                              options.roughness_nm.value});
         }
         groups.back().points.push_back(weighed(angle_point(row, options), weight));
     }

@@ -48,6 +48,8 @@ struct LadderRung {
 struct FitResult {
     std::string estimator;  // "psi-delta", "rho2", "inversion"
     std::string model;      // "bulk", "overlayer", "film"
+    // The formula that n and k of `points` follow, its parameters in `common`; "" for none.
+    std::string dispersion;
     // Ascending in wavelength: of the surface ("bulk"), of what lies below the layers
     // ("overlayer"), of the film itself ("film").
     std::vector<FittedPoint> points;
@@ -57,13 +59,17 @@ struct FitResult {
     // What lies on the surface, the first the outermost: the user's layers, or the fitted film.
     std::vector<FilmLayer> layers;
     OpticalConstants substrate;  // below a fitted film; otherwise without rows: `points` are it
+    // Of a fitted film: standard deviation of its thickness over the beam, and full width at half
+    // maximum of the slit; 0 for an even film and a narrow slit.
+    double thickness_spread_nm = 0, bandwidth_nm = 0;
     // The next best thickness of a film that is a minimum by itself, and how much worse its
     // chi-square is; 0 and 0 where the search met none.
     double rival_thickness_nm = 0, rival_chi2_excess = 0;
-    double chi2 = 0;                 // summed over the identifiable points
-    int data = 0;                    // residuals in that sum
-    int parameters = 0;              // fitted to them
-    std::vector<LadderRung> ladder;  // of the model "auto", in the order tried; otherwise empty
+    double chi2 = 0;     // summed over the identifiable points
+    int data = 0;        // residuals in that sum
+    int parameters = 0;  // fitted to them
+    // Of the model "auto", or of a dispersion that picks its size, in the order tried.
+    std::vector<LadderRung> ladder;
     // The robust loss, "" without; then `chi2` is the sum of the losses, and so many rows of those
     // fitted count for less than half of what least squares would let them.
     std::string robust;

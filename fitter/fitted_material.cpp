@@ -53,6 +53,7 @@ Material fitted_material(const FitResult& fit, const Measurement& measurement,
                                  fit.estimator)
                            : fmt::format("fitted to Psi and Delta below {} (estimator {})",
                                          layer_text(fit.layers), fit.estimator);
+    if (!fit.dispersion.empty()) constants.citation += "; n and k follow " + fit.dispersion;
     material.layers = fit.layers;
     for (const FittedPoint& point : fit.points) {
         if (!point.identifiable) continue;

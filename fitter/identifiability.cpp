@@ -27,6 +27,29 @@ bool Identifiability::all() const {
     return std::all_of(identifiable.begin(), identifiable.end(), [](bool yes) { return yes; });
 }
 
+double Identifiability::sigma_of(const std::vector<double>& gradient) const {
+    for (const std::vector<double>& direction : null_directions) {
+        double along = 0, size = 0;
+        for (size_t j = 0; j < gradient.size(); ++j) {
+            along += gradient[j] * direction[j];
+            size += std::abs(gradient[j] * direction[j]);
+        }
+        if (std::abs(along) > null_component * size) {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+    return std::sqrt(std::max(covariance_of(gradient, gradient), 0.0));
+}
+
+double Identifiability::covariance_of(const std::vector<double>& a,
+                                      const std::vector<double>& b) const {
+    double sum = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+        for (size_t j = 0; j < b.size(); ++j) sum += a[i] * covariance[i * b.size() + j] * b[j];
+    }
+    return sum;
+}
+
 Identifiability analyse_jacobian(const std::vector<double>& jacobian, int rows, int columns) {
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -55,10 +78,16 @@ Identifiability analyse_jacobian(const std::vector<double>& jacobian, int rows, 
         for (int i = rank; i < columns; ++i) outside += V(j, i) * V(j, i);
         result.identifiable[static_cast<size_t>(j)] = std::sqrt(outside) < null_component;
     }
+    for (int i = rank; i < columns; ++i) {
+        const Eigen::VectorXd direction = scale.asDiagonal() * V.col(i);
+        result.null_directions.emplace_back(direction.data(), direction.data() + columns);
+    }
+    const Eigen::MatrixXd root =
+        scale.asDiagonal() * V.leftCols(rank) * values.head(rank).cwiseInverse().asDiagonal();
+    const RowMajor covariance = root * root.transpose();
+    result.covariance.assign(covariance.data(), covariance.data() + covariance.size());
     if (rank < columns) return result;
 
-    const Eigen::MatrixXd root = scale.asDiagonal() * V * values.cwiseInverse().asDiagonal();
-    const Eigen::MatrixXd covariance = root * root.transpose();
     for (int i = 0; i < columns; ++i) {
         result.sigma[static_cast<size_t>(i)] = std::sqrt(covariance(i, i));
         for (int j = 0; j < columns; ++j) {

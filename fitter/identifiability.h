@@ -16,8 +16,17 @@ struct Identifiability {
     std::vector<double> sigma;
     std::vector<double> correlation;  // row-major, parameters x parameters; NaN likewise
     double condition = 0;  // largest over smallest singular value of the Jacobian; infinite if 0
+    // Row-major, parameters x parameters, over the directions that the data determine alone.
+    std::vector<double> covariance;
+    // Changes of the parameters that change no datum, one after the other.
+    std::vector<std::vector<double>> null_directions;
 
     bool all() const;
+    // The standard deviation of a quantity that changes by gradient[j] with parameter j; NaN where
+    // it changes along a null direction.
+    double sigma_of(const std::vector<double>& gradient) const;
+    // The covariance of two such quantities.
+    double covariance_of(const std::vector<double>& a, const std::vector<double>& b) const;
 };
 
 // `jacobian`: d(residual)/d(parameter), row-major rows x columns, residuals in units of standard

@@ -68,9 +68,11 @@ AveragedIndex invert_and_average(const WavelengthData& data) {
     double correlation = 0;
     for (const AnglePoint& point : data.points) {
         const InvertedIndex inverted = invert_psi_delta(point);
-        const bool usable = std::isfinite(inverted.n) && std::isfinite(inverted.k) &&
-                            std::isfinite(inverted.sigma_n) && std::isfinite(inverted.sigma_k) &&
-                            inverted.sigma_n > 0 && inverted.sigma_k > 0;
+        // At Psi = 0 and 90 only one polarisation is reflected and Delta says nothing.
+        const bool usable = std::sin(2 * point.psi) > 1e-9 && std::isfinite(inverted.n) &&
+                            std::isfinite(inverted.k) && std::isfinite(inverted.sigma_n) &&
+                            std::isfinite(inverted.sigma_k) && inverted.sigma_n > 0 &&
+                            inverted.sigma_k > 0;
         if (!usable) continue;
         n.push_back(inverted.n);
         k.push_back(inverted.k);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fitter/film_average.h"
 #include "materials/measurement_noise.h"
 #include "materials/surface.h"
 
@@ -28,6 +29,44 @@ const FittedPoint* point_at(const FitResult& fit, double wavelength_nm) {
     return there ? &*found : nullptr;
 }
 
+Reflection<double> reflection(const FitResult& fit, const FittedPoint& point, double wavelength_nm,
+                              double thicker_nm, double cos_theta) {
+    std::vector<ThinFilm<double>> films;
+    for (const FilmLayer& layer : fit.layers) {
+        const Index index = layer.constants.at(wavelength_nm);
+        films.push_back({{index.n, index.k}, layer.thickness_nm});
+    }
+    ComplexIndex<double> below{point.n, point.k};
+    if (!fit.substrate.wavelength_nm.empty()) {
+        const Index index = fit.substrate.at(wavelength_nm);
+        below = {index.n, index.k};
+        // The film is the last of the layers: roughness lies above it.
+        films.back().thickness = std::max(films.back().thickness + thicker_nm, 0.0);
+    }
+    return reflect(films.data(), static_cast<int>(films.size()), below, cos_theta, wavelength_nm);
+}
+
+// Over the slit and the thicknesses of a film.
+Reflection<double> averaged(const FitResult& fit, const FittedPoint& point, double cos_theta) {
+    const GaussianNodes even{{0}, {1}}, fine = gaussian_nodes(largest_phase_spread);
+    const GaussianNodes& slit = fit.bandwidth_nm > 0 ? fine : even;
+    const GaussianNodes& spread = fit.thickness_spread_nm > 0 ? fine : even;
+    Reflection<double> sum{0, 0, 0, 0};
+    for (size_t i = 0; i < slit.x.size(); ++i) {
+        const double nm = point.wavelength_nm + gaussian_sigma(fit.bandwidth_nm) * slit.x[i];
+        for (size_t j = 0; j < spread.x.size(); ++j) {
+            const Reflection<double> r =
+                reflection(fit, point, nm, fit.thickness_spread_nm * spread.x[j], cos_theta);
+            const double weight = slit.weight[i] * spread.weight[j];
+            sum.Rs += weight * r.Rs;
+            sum.Rp += weight * r.Rp;
+            sum.C += weight * r.C;
+            sum.S += weight * r.S;
+        }
+    }
+    return sum;
+}
+
 }  // namespace
 
 Measurement model_curve(const FitResult& fit, const Measurement& measurement) {
@@ -37,19 +76,8 @@ Measurement model_curve(const FitResult& fit, const Measurement& measurement) {
     for (MeasurementRow row : measurement.rows) {
         const FittedPoint* point = point_at(fit, row.wavelength_nm);
         if (!point) continue;
-        std::vector<ThinFilm<double>> films;
-        for (const FilmLayer& layer : fit.layers) {
-            const Index index = layer.constants.at(row.wavelength_nm);
-            films.push_back({{index.n, index.k}, layer.thickness_nm});
-        }
-        ComplexIndex<double> below{point->n, point->k};
-        if (!fit.substrate.wavelength_nm.empty()) {
-            const Index index = fit.substrate.at(row.wavelength_nm);
-            below = {index.n, index.k};
-        }
         const double cos_theta = std::cos((row.angle_deg + offset_deg) * degree);
-        const Reflection<double> r = reflect(films.data(), static_cast<int>(films.size()), below,
-                                             cos_theta, row.wavelength_nm);
+        const Reflection<double> r = averaged(fit, *point, cos_theta);
         if (!has_angles(r)) continue;
         row.psi_deg = psi(r) / degree;
         row.delta_deg = delta(r) / degree;
@@ -66,9 +94,13 @@ FitOptions options_taken(const FitOptions& options, const FitResult& fit) {
     taken.model = fit.model;
     if (fit.model != "overlayer") taken.overlayers.clear();
     if (fit.model != "film") taken.film.substrate = {};
-    taken.fit_angle_offset =
-        std::any_of(fit.common.begin(), fit.common.end(),
-                    [](const FittedParameter& p) { return p.name == "angle offset"; });
+    const auto has = [&](const char* name) {
+        return std::any_of(fit.common.begin(), fit.common.end(),
+                           [&](const FittedParameter& p) { return p.name == name; });
+    };
+    taken.dispersion = fit.dispersion;
+    taken.fit_angle_offset = has("angle offset");
+    taken.film.spread_nm.fitted = has("thickness spread");
     return taken;
 }
 

@@ -51,7 +51,8 @@ class Ladder {
     Ladder(const Measurement& measurement, const FitOptions& options)
         : measurement_(measurement), unweighted_(options.unweighted) {}
 
-    void climb(const std::string& name, const FitOptions& options) {
+    // Whether the model could be fitted, taken or not.
+    bool climb(const std::string& name, const FitOptions& options) {
         LadderRung rung;
         rung.model = name;
         try {
@@ -73,6 +74,7 @@ class Ladder {
             if (!first_refusal_) first_refusal_ = error;
         }
         rungs_.push_back(std::move(rung));
+        return rungs_.back().data > 0;
     }
 
     const FitOptions& options_taken() const { return options_; }
@@ -95,9 +97,13 @@ class Ladder {
 
 }  // namespace
 
+double bayesian_criterion(double chi2, int data, int parameters, bool unweighted) {
+    const double misfit = unweighted ? data * std::log(chi2 / data) : chi2;
+    return misfit + parameters * std::log(static_cast<double>(data));
+}
+
 double bayesian_criterion(const FitResult& fit, bool unweighted) {
-    const double misfit = unweighted ? fit.data * std::log(fit.chi2 / fit.data) : fit.chi2;
-    return misfit + fit.parameters * std::log(static_cast<double>(fit.data));
+    return bayesian_criterion(fit.chi2, fit.data, fit.parameters, unweighted);
 }
 
 FitResult fit_ladder(const Measurement& measurement, const FitOptions& options) {
@@ -105,6 +111,9 @@ FitResult fit_ladder(const Measurement& measurement, const FitOptions& options) 
     bulk.model = "bulk";
     bulk.overlayers.clear();
     bulk.film.substrate = {};
+    bulk.film.spread_nm = {};
+    bulk.film.bandwidth_nm = 0;
+    bulk.roughness_nm.fitted = false;
     bulk.fit_angle_offset = false;
     Ladder ladder(measurement, options);
     ladder.climb("bulk", bulk);
@@ -114,16 +123,28 @@ FitResult fit_ladder(const Measurement& measurement, const FitOptions& options) 
         layered.overlayers = options.overlayers;
         ladder.climb("overlayer", layered);
     }
+    FitOptions film = bulk;
+    bool film_fits = false;
     if (!options.film.substrate.wavelength_nm.empty()) {
-        FitOptions film = bulk;
         film.model = "film";
+        film.dispersion.clear();
         film.film = options.film;
-        ladder.climb("film", film);
+        film.film.spread_nm = {};
+        film.roughness_nm = options.roughness_nm;
+        film_fits = ladder.climb("film", film);
     }
     if (ladder.any() && measurement.angles().size() >= 3) {
         FitOptions tilted = ladder.options_taken();
         tilted.fit_angle_offset = true;
         ladder.climb(tilted.model + " + angle offset", tilted);
+    }
+    if (film_fits) {
+        // Also where an even film was not taken: washed-out fringes are no even film's.
+        const bool taken = ladder.any() && ladder.options_taken().model == "film";
+        FitOptions uneven = taken ? ladder.options_taken() : film;
+        uneven.film.spread_nm = {0, true};
+        ladder.climb(uneven.fit_angle_offset ? "film + angle offset + spread" : "film + spread",
+                     uneven);
     }
     return ladder.result();
 }

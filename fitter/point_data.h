@@ -24,6 +24,10 @@ struct WavelengthData {
     std::vector<AnglePoint> points;
     // Known layers on what is fitted, thickness in nm; the first is the outermost.
     std::vector<ThinFilm<double>> layers;
+    // Thickness of a layer of half void, half what is fitted, directly on it; 0 for none.
+    double roughness_nm = 0;
+
+    bool bare() const { return layers.empty() && roughness_nm == 0; }
 };
 
 // Angles and standard deviations in degrees; both sigmas > 0.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 
 #include "base/error.h"
 #include "fitter/identifiability.h"
@@ -92,17 +93,25 @@ double chi2_at(const PointCost& cost, const double* index) {
     return sum;
 }
 
-// The best minimum reached from `start`, and below layers from metals and dielectrics of every
-// sort too: interference makes minima that a bare surface does not have. "" where one converged.
-std::string minimise_from(const AveragedIndex& start, const WavelengthData& data, PointCost* cost,
+// When a fit starts from metals and dielectrics of every sort, too.
+enum class OtherStarts { never, if_poor, always };
+
+// More than noise explains: five standard deviations of chi-square above its mean.
+bool is_poor(double chi2, int data) {
+    return !(chi2 < data + 5 * std::sqrt(2.0 * data));
+}
+
+// The best minimum reached. "" where one converged.
+std::string minimise_from(const AveragedIndex& start, OtherStarts others, PointCost* cost,
                           double* index) {
     make_start(start, index);
     std::string failure = minimise(cost, index);
-    if (data.layers.empty()) return failure;
     double best = failure.empty() ? chi2_at(*cost, index) : std::numeric_limits<double>::infinity();
-    constexpr double others[][2] = {{0.2, 3},   {1, 6},   {0.6, 1.5},
-                                    {2.5, 3.5}, {4, 0.1}, {1.5, 0.01}};
-    for (const auto& other : others) {
+    if (others == OtherStarts::never) return failure;
+    if (others == OtherStarts::if_poor && !is_poor(best, cost->num_residuals())) return failure;
+    constexpr double starts[][2] = {{0.2, 3}, {1, 6},      {0.6, 1.5}, {2.5, 3.5},
+                                    {4, 0.1}, {1.5, 0.01}, {0.5, 0.2}, {0.1, 0.1}};
+    for (const auto& other : starts) {
         double trial[2] = {other[0], other[1]};
         if (!minimise(cost, trial).empty()) continue;
         const double chi2 = chi2_at(*cost, trial);
@@ -115,13 +124,17 @@ std::string minimise_from(const AveragedIndex& start, const WavelengthData& data
 }
 
 void fit_least_squares(const WavelengthData& data, Estimator estimator, const AveragedIndex& start,
-                       FittedPoint* point) {
+                       OtherStarts others, FittedPoint* point) {
     const auto cost = make_cost({&data, estimator});
     double index[2];
-    const std::string failure = minimise_from(start, data, cost.get(), index);
+    const std::string failure = minimise_from(start, others, cost.get(), index);
     if (!failure.empty()) return refuse(point, failure);
     if (std::max(index[0], index[1]) > 0.999 * largest_index) {
         return refuse(point, "no surface explains the data: n and k run off to infinity");
+    }
+    if (std::hypot(index[0] - 1, index[1]) < 1e-6) {
+        return refuse(point,
+                      "no surface explains the data: n and k run off to those of the vacuum");
     }
 
     const size_t count = static_cast<size_t>(point->data);
@@ -166,32 +179,84 @@ void take_inversion(const WavelengthData& data, const AveragedIndex& average, Fi
     for (const double residual : residuals) point->chi2 += residual * residual;
 }
 
-}  // namespace
-
-FittedPoint fit_point(const WavelengthData& data, Estimator estimator) {
+// Refused with the reason where there are fewer residuals than unknowns.
+FittedPoint empty_point(const WavelengthData& data, Estimator estimator) {
     FittedPoint point;
     point.wavelength_nm = data.wavelength_nm;
     point.data = PointResiduals{&data, estimator}.count();
-    if (point.data < 2) {
-        refuse(&point, too_few(data, estimator));
-        return point;
-    }
+    if (point.data < 2) refuse(&point, too_few(data, estimator));
+    return point;
+}
+
+bool is_at_bound(const FittedPoint& point) {
+    return point.identifiable && (point.n <= smallest_n * 1.001 || point.k <= 0);
+}
+
+}  // namespace
+
+FittedPoint fit_point(const WavelengthData& data, Estimator estimator) {
+    FittedPoint point = empty_point(data, estimator);
+    if (!point.reason.empty()) return point;
     const AveragedIndex inverted = invert_and_average(data);
+    // Below layers interference makes minima that a bare surface does not have, and tan^2 Psi alone
+    // has some where n < 1 and k is small.
+    const OtherStarts others = !data.bare()                   ? OtherStarts::always
+                               : estimator == Estimator::rho2 ? OtherStarts::if_poor
+                                                              : OtherStarts::never;
     if (estimator == Estimator::inversion) {
         take_inversion(data, inverted, &point);
     } else if (estimator == Estimator::rho2) {
-        fit_least_squares(data, estimator, start_from_tan2_psi(data), &point);
+        fit_least_squares(data, estimator, start_from_tan2_psi(data), others, &point);
     } else {
-        fit_least_squares(data, estimator, inverted, &point);
+        fit_least_squares(data, estimator, inverted, others, &point);
     }
     // Delta takes no part in rho2, and neither does what follows from it. Below layers the closed
     // form gives pseudo-values, whose spread is no fault of the model.
-    if (estimator != Estimator::rho2 && data.layers.empty()) {
+    if (estimator != Estimator::rho2 && data.bare()) {
         point.spread_n = inverted.spread_n;
         point.spread_k = inverted.spread_k;
     }
-    point.at_bound = point.identifiable && (point.n <= smallest_n * 1.001 || point.k <= 0);
+    point.at_bound = is_at_bound(point);
     return point;
+}
+
+FittedPoint fit_point_from(const WavelengthData& data, Estimator estimator, Index start) {
+    if (estimator == Estimator::inversion) throw std::logic_error("an inversion takes no start");
+    FittedPoint point = empty_point(data, estimator);
+    if (!point.reason.empty()) return point;
+    AveragedIndex from;
+    from.n = start.n;
+    from.k = start.k;
+    from.angles = 1;
+    fit_least_squares(data, estimator, from, OtherStarts::never, &point);
+    point.at_bound = is_at_bound(point);
+    return point;
+}
+
+void refuse_if_unknown(const WavelengthData& data, Estimator estimator, FittedPoint* point) {
+    if (!point->identifiable) return;
+    const Reflection<double> normal_incidence = {1, 1, -1, 0};
+    double chi2 = 0;
+    for (const AnglePoint& angle : data.points) {
+        double residuals[2] = {0, 0};
+        if (estimator == Estimator::rho2) {
+            rho2_residual(angle, normal_incidence, residuals);
+        } else {
+            psi_delta_residuals(angle, normal_incidence, residuals);
+        }
+        chi2 += residuals[0] * residuals[0] + residuals[1] * residuals[1];
+    }
+    if (!is_poor(chi2, point->data)) {
+        return refuse(
+            point, fmt::format("within their noise the data are {}, as of every surface "
+                               "near normal incidence: they hold nothing of n and k",
+                               estimator == Estimator::rho2 ? "Psi = 45 degrees"
+                                                            : "Psi = 45 and Delta = 180 degrees"));
+    }
+    if (std::hypot(point->sigma_n, point->sigma_k) <= std::hypot(point->n, point->k)) return;
+    refuse(point, fmt::format("the data do not determine n and k: their standard deviations would "
+                              "be {:.2g} and {:.2g}",
+                              point->sigma_n, point->sigma_k));
 }
 
 }  // namespace drude

@@ -17,4 +17,15 @@ inline constexpr double largest_index = 1000;
 // Never throws for data that hold too little: the result then says why.
 FittedPoint fit_point(const WavelengthData& data, Estimator estimator);
 
+// The same by least squares from one start alone, which is moved into n from 1e-3 and k from 1e-6,
+// 100 at most. For studies of convergence: fit_point() needs no start. Throws std::logic_error for
+// the estimator inversion, which takes none.
+FittedPoint fit_point_from(const WavelengthData& data, Estimator estimator, Index start);
+
+// Refuses a fit of data that hold nothing, whatever number fits them best: where the standard
+// deviations of n and k together exceed the length of n + ik, and where Psi = 45 and Delta = 180
+// degrees explain the data within their noise, as they do for every surface near normal incidence.
+// Only for standard deviations that are those of the data.
+void refuse_if_unknown(const WavelengthData& data, Estimator estimator, FittedPoint* point);
+
 }  // namespace drude

@@ -5,6 +5,7 @@
 
 #include "fitter/point_fit.h"
 #include "fitter/residuals.h"
+#include "materials/effective_medium.h"
 
 namespace drude {
 
@@ -43,6 +44,11 @@ struct PointResiduals {
         std::vector<ThinFilm<T>> layers;
         for (const ThinFilm<double>& layer : data->layers) {
             layers.push_back({{T(layer.index.n), T(layer.index.k)}, T(layer.thickness)});
+        }
+        if (data->roughness_nm > 0) {
+            const ComplexIndex<T> half =
+                bruggeman(nk, ComplexIndex<T>{T(1.0), T(0.0)}, T(roughness_void));
+            layers.push_back({half, T(data->roughness_nm)});
         }
         for (const AnglePoint& point : data->points) {
             const Reflection<T> model = reflect(layers.data(), static_cast<int>(layers.size()), nk,

@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "base/executor.h"
-#include "fitter/film_fit.h"
 #include "fitter/film_profile.h"
 #include "fitter/fit_data.h"
 #include "fitter/model_curve.h"
@@ -30,6 +29,12 @@ void check(const FitOptions& options, const FitResult& fit) {
             "a profile likelihood is that of normal errors; found the robust loss {}, expected "
             "none (the bootstrap takes it)",
             options.robust);
+    }
+    if (!fit.dispersion.empty()) {
+        user_error(
+            "a profile likelihood is made of n and k at single wavelengths or of a film's "
+            "parameters; found the dispersion {}, expected none (the bootstrap takes it)",
+            fit.dispersion);
     }
     if (fit.model != "bulk" && fit.model != "overlayer" && fit.model != "film") {
         user_error(
@@ -106,12 +111,10 @@ class Tasks {
             task.parameter = {p.name, p.unit, 0, p.value, p.sigma, {}};
             task.smallest = fit_.chi2 / scale_;
             if (fit_.model == "film") {
-                const FilmBound bound = film_bound(p.name, options_.film.largest_thickness_nm);
+                const FilmBound bound = film_bound(p.name, film_range(film_, options_));
                 task.lower = bound.lower;
                 task.upper = bound.upper;
-                task.held =
-                    scaled(held_film_chi2(film_, fit_, p.name, options_.film.largest_thickness_nm,
-                                          options_.film.porosity));
+                task.held = scaled(held_film_chi2(film_, fit_, p.name, options_));
             } else {
                 task.lower = -largest_angle_offset / degree;
                 task.upper = largest_angle_offset / degree;

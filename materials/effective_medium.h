@@ -5,6 +5,10 @@
 
 namespace drude {
 
+// The fraction of void in a layer that stands for a rough surface (Aspnes, Theeten & Hottier,
+// Phys. Rev. B 20, 3292 (1979)).
+inline constexpr double roughness_void = 0.5;
+
 namespace effective_medium_detail {
 
 // The square root with im >= 0, and with re >= 0 on the real axis.

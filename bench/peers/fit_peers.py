@@ -4,9 +4,10 @@
     VENV/bin/python bench/peers/fit_peers.py BUILD_FOLDER [ROUNDS]
 
 Every round times each fit once, one after the other, in processes that have read everything before;
-drude's own time is the one that fit_speed takes inside. Printed are the medians over the rounds, as
+drude's own time is the one that fit_speed takes inside. All run on one thread and are timed by the
+processor's clock, so that what else the machine does is left out. Printed are the medians over the rounds, as
 Markdown, with how far the answers are apart. Where pyElli or lmfit is missing the script says so and
-ends with status 0. All run on one thread.
+ends with status 0.
 """
 
 import json
@@ -202,14 +203,14 @@ def main():
             for name in own:
                 own[name].append(result[name]["seconds"])
             for name, run in peers.items():
-                begin = time.perf_counter()
+                begin = time.process_time()
                 run()
-                seconds[name].append(time.perf_counter() - begin)
+                seconds[name].append(time.process_time() - begin)
 
     points = len(metal)
     own = {name: statistics.median(values) for name, values in own.items()}
     seconds = {name: statistics.median(values) for name, values in seconds.items()}
-    print(f"{processor()}, {os.cpu_count()} processors, one thread used; medians of {rounds} "
+    print(f"{processor()}, {os.cpu_count()} processors, one thread used; processor time, medians of {rounds} "
           f"rounds.\n\ndrude {first['version']} ({first['isa']}), pyElli {version('pyElli')}, "
           f"lmfit {version('lmfit')}, scipy {scipy.__version__}, numpy {np.__version__}, "
           f"Python {platform.python_version()}.\n")

@@ -28,10 +28,11 @@ namespace {
 
 struct FitCommandOptions {
     std::string measurement, format = "auto";
-    std::string estimator = "psi-delta", model = "bulk", lobe;
+    std::string estimator = "psi-delta", model = "bulk", dispersion, lobe;
     std::vector<std::string> overlayers;
     std::string substrate, film_material = "Al2O3-Malitson-o", porosity = "fit";
-    double largest_thickness_nm = 10000;
+    double largest_thickness_nm = 10000, bandwidth_nm = 0;
+    std::string spread, roughness;
     bool angle_offset = false, unweighted = false;
     std::string range;
     std::string lobe_scan, constants;
@@ -40,12 +41,24 @@ struct FitCommandOptions {
     FitStatisticsOptions statistics;
 };
 
+KnownOrFitted known_or_fitted(const std::string& text, const char* option) {
+    if (text.empty()) return {};
+    if (text == "fit") return {0, true};
+    const auto value = parse_double(text);
+    if (!value || !(*value >= 0)) {
+        user_error("{}: found '{}', expected a length in nm, or fit", option, text);
+    }
+    return {*value, false};
+}
+
 void set_film(const FitCommandOptions& options, FilmModel* film) {
     film->material = find_constants(options.film_material, "--film-material");
     if (!options.substrate.empty()) {
         film->substrate = find_constants(options.substrate, "--substrate");
     }
     film->largest_thickness_nm = options.largest_thickness_nm;
+    film->bandwidth_nm = options.bandwidth_nm;
+    film->spread_nm = known_or_fitted(options.spread, "--spread");
     if (options.porosity == "fit") return;
     const auto porosity = parse_double(options.porosity);
     if (!porosity) {
@@ -76,6 +89,7 @@ FitOptions make_fit_options(const FitCommandOptions& options, const CommonOption
     FitOptions fit;
     fit.estimator = options.estimator;
     fit.model = options.model;
+    fit.dispersion = options.dispersion;
     fit.lobe = options.lobe;
     fit.fit_angle_offset = options.angle_offset;
     fit.unweighted = options.unweighted;
@@ -85,6 +99,7 @@ FitOptions make_fit_options(const FitCommandOptions& options, const CommonOption
         fit.overlayers.push_back(find_layer(layer, "--overlayer"));
     }
     set_film(options, &fit.film);
+    fit.roughness_nm = known_or_fitted(options.roughness, "--roughness");
     set_range(options.range, &fit);
     return fit;
 }
@@ -143,7 +158,8 @@ void check_combination(const FitCommandOptions& options, const OptionSet& given)
     }
     check_fit_statistics(options.statistics, given, !options.measurement.empty());
     if (options.model == "film" || options.model == "auto") return;
-    for (const char* option : {"--film-material", "--porosity", "--max-thickness"}) {
+    for (const char* option :
+         {"--film-material", "--porosity", "--max-thickness", "--spread", "--bandwidth"}) {
         if (given.given(option)) user_error("found {}, which belongs to --model film", option);
     }
 }
@@ -236,19 +252,34 @@ Command fit_command() {
         "fits the thickness of a film and its porosity, as a Bruggeman mixture of --film-material "
         "with void, on the known --substrate, all wavelengths together; the fringes of cos 2Psi "
         "give its starts, and the next best thickness is reported.\n\n"
+        "A thick film is rarely even, and a spectrometer's slit sees more than one wavelength: "
+        "--spread and --bandwidth average the intensities over a Gaussian of thicknesses and over "
+        "the slit, without which washed-out fringes are fitted with a wrong porosity. --roughness "
+        "puts a layer of half void, half what lies below it on the film, or, of known thickness, "
+        "on what is fitted otherwise.\n\n"
         "The model auto climbs a ladder: bulk, overlayer where one is given, film where a "
-        "substrate is, an angle offset from three angles on. A rung is taken only where the "
+        "substrate is, an angle offset from three angles on, a spread of the film's thickness. A "
+        "rung is taken only where the "
         "Bayesian information criterion falls by more than 10 and the reduced chi-square moves "
         "towards 1; the ladder is printed.\n\n"
+        "--dispersion lets n and k follow a formula over all wavelengths, of the models bulk and "
+        "overlayer: drude, drude+2cp (free electrons and two critical points), drude+3lorentz, "
+        "cauchy, sellmeier or 2sellmeier, bruggeman:A,B (a mixture of two materials), spline:N "
+        "(a cubic spline of N intervals as the absorption and its Kramers-Kronig transform). "
+        "compact is the smallest of drude, drude+cp and drude+2cp that the data need, spline "
+        "chooses its intervals so; what was tried is printed. A formula that is too small shows "
+        "in the reduced chi-square: without one every wavelength stands for itself, which is "
+        "never wrong.\n\n"
         "A material is a set (drude materials), a material file, n,k, or a Cauchy formula "
         "cauchy:A,B,C in micrometres. --angle-offset takes a common error of the angles of "
         "incidence as one more parameter and needs three angles.\n\n"
-        "Wavelengths at which the data determine nothing are left "
-        "out and named; a measurement that determines nothing at all is refused (exit status 1). "
-        "\n\n"
+        "Wavelengths at which the data determine nothing (the standard deviations exceed n + ik "
+        "itself, or the data are Psi = 45 and Delta = 180 degrees within their noise) are left out "
+        "and named; a measurement that determines nothing at all is refused (exit status 1).\n\n"
         "n and k are compared with the published sets of --literature, of the metal that the "
         "measurement's sample is called, or of the metal that is nearest: root mean square "
-        "differences over the wavelengths that each set covers. --robust lets rows far from the "
+        "differences over the wavelengths that each set covers; a film is fitted again on other "
+        "published sets of its substrate. --robust lets rows far from the "
         "model count less (huber, cauchy, tukey; constants 1.345, 2.385 and 4.685 standard "
         "deviations); huber withstands a few bad rows, tukey grosser ones. --profile finds where "
         "chi-square, smallest over all other parameters, rises by 1 and by 3.84 on either side of "
@@ -284,6 +315,8 @@ Command fit_command() {
         options.positional("MEASUREMENT", values->measurement, "CSV or a vendor's export", false);
         options.choice("--estimator", values->estimator, estimator_names(), "what is minimised");
         options.choice("--model", values->model, fit_model_names(), "the sample's structure");
+        options.option("--dispersion", values->dispersion,
+                       "FORMULA of n and k over the wavelengths: compact, drude+2cp, cauchy, ...");
         options.option("--overlayer", values->overlayers,
                        "MATERIAL,NM: a known layer on what is fitted; repeats");
         options.option("--substrate", values->substrate, "MATERIAL below a fitted film");
@@ -291,6 +324,12 @@ Command fit_command() {
         options.option("--porosity", values->porosity, "of a fitted film, 0 to 0.95; or fit");
         options.option("--max-thickness", values->largest_thickness_nm,
                        "of a fitted film, in nm: where the search ends");
+        options.option("--spread", values->spread,
+                       "of a film's thickness over the beam, in nm; or fit");
+        options.option("--bandwidth", values->bandwidth_nm,
+                       "of the spectrometer, full width at half maximum in nm, for a film");
+        options.option("--roughness", values->roughness,
+                       "thickness in nm of a layer of half void; fit on a film");
         options.flag("--angle-offset", values->angle_offset,
                      "fit a common error of the angles of incidence");
         options.option("--range", values->range, "A:B: only wavelengths from A to B nm");

@@ -31,6 +31,10 @@ ordered_json parameter(const FitResult& fit, const char* name) {
             {"wavelengths", identified}};
 }
 
+bool every_wavelength_by_itself(const FitResult& fit) {
+    return fit.substrate.wavelength_nm.empty() && fit.dispersion.empty();
+}
+
 ordered_json parameters(const FitResult& fit) {
     ordered_json list = ordered_json::array();
     for (const FittedParameter& p : fit.common) {
@@ -42,8 +46,8 @@ ordered_json parameters(const FitResult& fit) {
                         {"sigma", p.sigma},
                         {"at_bound", p.at_bound}});
     }
-    // The n and k of a film follow from its porosity.
-    if (fit.substrate.wavelength_nm.empty()) {
+    // The n and k of a film follow from its porosity, those of a formula from its parameters.
+    if (every_wavelength_by_itself(fit)) {
         list.push_back(parameter(fit, "n"));
         list.push_back(parameter(fit, "k"));
     }
@@ -66,8 +70,7 @@ void print_table(const FitResult& fit) {
             fmt::print("{:>10}  not determined\n", format_double(point.wavelength_nm));
             continue;
         }
-        const bool film = !fit.substrate.wavelength_nm.empty();
-        const int dof = film ? point.data : point.data - 2;
+        const int dof = every_wavelength_by_itself(fit) ? point.data - 2 : point.data;
         fmt::print("{:>10}  {:>10.5f} {:>9.5f}  {:>10.5f} {:>9.5f}  {:>8}  {:>9.3g}\n",
                    format_double(point.wavelength_nm), point.n, point.sigma_n, point.k,
                    point.sigma_k, dof > 0 ? fmt::format("{:.3f}", point.chi2 / dof) : "-",
@@ -159,6 +162,7 @@ void print_fit_json(const FitReport& report, const Material& material, const std
                              {"pseudo", fit.layers.empty()},
                              {"layers", layers(fit)},
                              {"warnings", fit.warnings}};
+    if (!fit.dispersion.empty()) document["dispersion"] = fit.dispersion;
     if (!fit.ladder.empty()) document["ladder"] = ladder(fit);
     if (!fit.substrate.wavelength_nm.empty()) document["substrate"] = fit.substrate.name;
     if (fit.rival_thickness_nm > 0) {
@@ -183,6 +187,7 @@ void print_fit_text(const FitReport& report, bool with_table) {
                report.name, fit.model, fit.estimator, what_was_fitted(fit), determined,
                fit.points.size(), fit.points.front().wavelength_nm,
                fit.points.back().wavelength_nm);
+    if (!fit.dispersion.empty()) fmt::print("n and k follow {}\n", fit.dispersion);
     for (const FittedParameter& p : fit.common) {
         if (!p.identifiable) {
             fmt::print("{} not determined\n", p.name);

@@ -43,6 +43,7 @@ void run_fit_statistics(const FitStatisticsOptions& options, FitReport* report) 
     if (options.literature != "none") {
         report->literature = compare_with_literature(
             report->fit, report->measurement.header_value("sample"), options.literature);
+        report->substrates = other_substrates(report->measurement, report->options, report->fit);
     }
     if (options.profile || !options.profile_at.empty()) {
         std::vector<double> only_nm;

@@ -219,6 +219,27 @@ void print_profile(const ProfileResult& result, bool every_wavelength) {
     }
 }
 
+ordered_json substrates_json(const FitReport& report) {
+    ordered_json list = ordered_json::array();
+    for (const SubstrateAlternative& other : report.substrates) {
+        list.push_back({{"name", other.name},
+                        {"first_nm", other.first_nm},
+                        {"last_nm", other.last_nm},
+                        {"thickness_nm", other.thickness.value},
+                        {"sigma_nm", other.thickness.sigma},
+                        {"same_range_nm", other.same_range.value}});
+    }
+    return list;
+}
+
+void print_substrates(const FitReport& report) {
+    for (const SubstrateAlternative& other : report.substrates) {
+        fmt::print("on {} instead, {:g} to {:g} nm: thickness {:.6g} +- {:.2g} nm ({:.6g} on {})\n",
+                   other.name, other.first_nm, other.last_nm, other.thickness.value,
+                   other.thickness.sigma, other.same_range.value, report.fit.substrate.name);
+    }
+}
+
 }  // namespace
 
 void add_statistics(const FitReport& report, ordered_json* document) {
@@ -229,12 +250,14 @@ void add_statistics(const FitReport& report, ordered_json* document) {
     }
     (*document)["literature"] =
         report.literature ? literature_json(*report.literature) : ordered_json(nullptr);
+    if (report.fit.model == "film") (*document)["other_substrates"] = substrates_json(report);
     if (report.bootstrap) (*document)["bootstrap"] = bootstrap_json(report);
     if (report.profile) (*document)["profile"] = profile_json(*report.profile);
 }
 
 void print_statistics(const FitReport& report, bool every_wavelength) {
     if (report.literature) print_literature(*report.literature);
+    print_substrates(report);
     if (report.profile) print_profile(*report.profile, every_wavelength);
     if (report.bootstrap) print_bootstrap(report, every_wavelength);
 }

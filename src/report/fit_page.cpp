@@ -68,7 +68,10 @@ void show_summary(const FitReport& report, Page* page) {
         {"Fitted", fmt::format("{} at {} of {} wavelengths, {:g} to {:g} nm", what_was_fitted(fit),
                                determined, fit.points.size(), fit.points.front().wavelength_nm,
                                fit.points.back().wavelength_nm)},
-        {"Model and estimator", fit.model + ", " + fit.estimator},
+        {"Model and estimator",
+         fmt::format("{}{}, {}", fit.model,
+                     fit.dispersion.empty() ? "" : ", n and k follow " + fit.dispersion,
+                     fit.estimator)},
         {"Agreement", goodness(report)}};
     for (const FittedParameter& p : fit.common) {
         facts.emplace_back(named(p.name, p.unit),
@@ -194,6 +197,26 @@ void show_profile(const FitReport& report, Page* page) {
     page->table(table);
 }
 
+void show_substrates(const FitReport& report, Page* page) {
+    if (report.substrates.empty()) return;
+    page->section("Other substrates", "substrates");
+    page->paragraph(
+        "The thickness stands on constants of the substrate that somebody else measured on another "
+        "sample: how far other published sets of the same material move it, over the wavelengths "
+        "that they cover.");
+    PageTable table;
+    table.columns = {"Set", "Wavelengths (nm)", "Thickness (nm)", "±",
+                     fmt::format("On {} there (nm)", report.fit.substrate.name)};
+    table.numeric = {false, false, true, true, true};
+    for (const SubstrateAlternative& other : report.substrates) {
+        table.rows.push_back({other.name,
+                              fmt::format("{:g} to {:g}", other.first_nm, other.last_nm),
+                              fixed(other.thickness.value, 3), fixed(other.thickness.sigma, 4),
+                              fixed(other.same_range.value, 3)});
+    }
+    page->table(table);
+}
+
 void show_literature(const FitReport& report, Page* page) {
     if (!report.literature) return;
     const LiteratureComparison& literature = *report.literature;
@@ -276,6 +299,7 @@ std::string fit_page(const FitReport& report) {
     add_figures(data_figures(report), &page);
     show_constants(report, &page);
     show_literature(report, &page);
+    show_substrates(report, &page);
     show_ladder(report.fit, &page);
     show_profile(report, &page);
     show_bootstrap(report, &page);

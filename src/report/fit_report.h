@@ -9,6 +9,7 @@
 #include "fitter/bootstrap.h"
 #include "fitter/literature.h"
 #include "fitter/profile.h"
+#include "fitter/substrate_choice.h"
 #include "materials/measurement.h"
 
 namespace drude {
@@ -19,6 +20,7 @@ struct FitReport {
     FitOptions options;
     FitResult fit;
     std::optional<LiteratureComparison> literature;
+    std::vector<SubstrateAlternative> substrates;  // of a film
     std::optional<BootstrapResult> bootstrap;
     std::optional<ProfileResult> profile;
     Provenance provenance;

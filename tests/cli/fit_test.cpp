@@ -173,5 +173,24 @@ TEST(FitFigures, DeltaHasNoSeam) {
     EXPECT_EQ(data_figures(report)[1].svg, expected);
 }
 
+TEST(FitCommand, FollowsADispersionFormula) {
+    const TemporaryFolder folder;
+    const std::string file = simulated(folder, "Ag-McPeak");
+    const json fit = fitted(folder, file + " --dispersion compact -o ag.json");
+    EXPECT_EQ(fit["dispersion"].get<std::string>().rfind("drude", 0), 0u);
+    EXPECT_EQ(fit["parameters"][0]["name"], "eps_inf");
+    EXPECT_EQ(fit["parameters"][1]["unit"], "eV");
+    EXPECT_EQ(fit["ladder"].size(), 3u);
+    EXPECT_LT(fit["chi2_reduced"], 2);
+    const ProgramRun wrong = run_drude(folder, "fit m.csv --dispersion drude+2cq");
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_NE(wrong.err.find("did you mean 'cp'"), std::string::npos) << wrong.err;
+    const ProgramRun film = run_drude(folder, "fit m.csv --spread 3");
+    EXPECT_EQ(film.status, 2);
+    EXPECT_NE(film.err.find("--spread"), std::string::npos) << film.err;
+    const ProgramRun rough = run_drude(folder, "fit m.csv --roughness fit");
+    EXPECT_EQ(rough.status, 1);
+}
+
 }  // namespace
 }  // namespace drude

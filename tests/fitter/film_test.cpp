@@ -10,6 +10,7 @@
 #include "fitter/fitted_material.h"
 #include "fitter/import.h"
 #include "fitter/named_constants.h"
+#include "fitter/substrate_choice.h"
 #include "shared_data.h"
 
 namespace drude {
@@ -202,6 +203,28 @@ TEST(Film, MeasuredOxideOnSilicon) {
     options.film.substrate = published_set("Si-Green-2008");
     options.first_nm = 250;
     EXPECT_NEAR(value_of(fit_measurement(data, options), "thickness"), 103.6, 0.3);
+}
+
+TEST(Film, OtherSetsOfTheSubstrateMoveTheThickness) {
+    FitOptions options;
+    options.model = "film";
+    options.film.substrate = published_set("Al-Rakic");
+    options.film.material = published_set("Al2O3-Malitson-o");
+    const Measurement data = measured_film(1500, 0.1, 0);
+    const FitResult fit = fit_measurement(data, options);
+    const auto others = other_substrates(data, options, fit);
+    ASSERT_GE(others.size(), 2u);
+    for (const SubstrateAlternative& other : others) {
+        EXPECT_EQ(published_set(other.name).material, "Al");
+        EXPECT_NE(other.name, "Al-Rakic");
+        EXPECT_NEAR(other.same_range.value, 1500, 1e-3);
+        // Other samples of aluminium: far more than the noise, less than a fringe.
+        EXPECT_GT(std::abs(other.thickness.value - 1500), 0.01) << other.name;
+        EXPECT_LT(std::abs(other.thickness.value - 1500), 100) << other.name;
+    }
+    // A bare surface has no substrate.
+    FitOptions bulk;
+    EXPECT_TRUE(other_substrates(data, bulk, fit_measurement(data, bulk)).empty());
 }
 
 TEST(Film, RefusesWhatMakesNoSense) {

@@ -1,0 +1,37 @@
+// The nodes over which a film's reflectance is averaged.
+#pragma once
+
+#include <vector>
+
+#include "fitter/film_model.h"
+#include "fitter/fit.h"
+
+namespace drude {
+
+// Nodes of a Gaussian of standard deviation 1 and their weights, which sum to 1.
+struct GaussianNodes {
+    std::vector<double> x, weight;
+};
+
+// Fine enough for the average of a fringe whose phase scatters by `phase` radians, and of its
+// second harmonic.
+GaussianNodes gaussian_nodes(double phase);
+
+// The phase of a fringe, 4 pi n d/lambda, may scatter by so many radians; beyond, nothing is left.
+inline constexpr double largest_phase_spread = 6;
+
+// Standard deviation of a Gaussian of that full width at half maximum.
+double gaussian_sigma(double full_width);
+
+// Over a Gaussian slit of `bandwidth_nm` (full width at half maximum, > 0) about every wavelength
+// of the problem, with the constants of each node, fine enough for `film.largest_thickness_nm`.
+void set_bands(const FilmModel& film, double bandwidth_nm, FilmProblem* problem);
+
+// Nodes of a Gaussian over the thickness, for spreads up to largest_spread().
+void set_spread_nodes(FilmProblem* problem);
+
+// In nm: beyond it the fringes of the shortest wavelength are e^-18 of what they were, and those of
+// twice that wavelength 1 %.
+double largest_spread(const FilmProblem& problem);
+
+}  // namespace drude
