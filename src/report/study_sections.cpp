@@ -136,7 +136,7 @@ void section_pictures(Page& page, const Study& study, const StudyPage& content) 
     if (!content.picture_data.empty()) {
         page.markup(viewer_markup(study.metals, content.picture_data));
         page.style(web_style("viewer"));
-        page.script(web_script("viewer"));
+        page.script(viewer_script());
         const std::string& credit = study.info.environment_credit;
         page.paragraph(content.data_description + (credit.empty() ? "" : " " + credit + "."));
     }

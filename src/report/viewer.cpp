@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "report/markup.h"
+#include "report/web.h"
 
 namespace drude {
 
@@ -52,6 +53,14 @@ std::string viewer_markup(const std::vector<StudyMetal>& metals, const std::stri
     for (const StudyMetal& metal : metals) markup += figure(metal);
     return markup + "<script type=\"application/json\" id=\"picture-data\">" + picture_data +
            "</script>\n";
+}
+
+std::string viewer_script() {
+    std::string script = "(() => {\n'use strict';\n";
+    for (const char* part : {"viewer_layers", "viewer_paint", "viewer_readout", "viewer"}) {
+        script += web_script(part);
+    }
+    return script + "})();\n";
 }
 
 }  // namespace drude
