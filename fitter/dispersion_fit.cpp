@@ -239,7 +239,10 @@ DispersionFit fit_smallest(const std::vector<std::string>& names, const Setup& s
         }
         ladder.push_back(std::move(rung));
     }
-    if (best.points.empty()) throw Error(Cause::answer_is_no, ladder.front().objection);
+    if (best.points.empty()) {
+        throw Error(Cause::answer_is_no, fmt::format("no fit with {}: {}", ladder.front().model,
+                                                     ladder.front().objection));
+    }
     best.ladder = std::move(ladder);
     return best;
 }
