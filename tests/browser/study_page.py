@@ -121,28 +121,35 @@ def tools(browser, metals):
     browser.settle()
     check(brightness(browser, over) == dark, "Reset brings the picture back to the byte")
 
-    before = fingerprint(browser, over)
-    browser.evaluate("(() => {const c = document.getElementById('curve'); c.value = 'reinhard';"
-                     "c.dispatchEvent(new Event('change'));})()")
+    choose = lambda name, value: browser.evaluate(
+        f"(() => {{const c = document.getElementById('{name}'); c.value = '{value}';"
+        "c.dispatchEvent(new Event('change'));})()")
+    state = lambda: (fingerprint(browser, over), fingerprint(browser, f"#pair-{metals[0]} .map canvas"),
+                     browser.evaluate(f"document.querySelector('#pair-{metals[0]} .unit').textContent"),
+                     browser.evaluate("['curve', 'difference'].map((c) => "
+                                      "document.getElementById(c).value).join()"))
+    first = state()
+    choose("curve", "reinhard")
+    choose("difference", "dolp")
     browser.settle()
-    check(fingerprint(browser, over) != before, "the tone curve changes the picture")
-    browser.evaluate("(() => {const c = document.getElementById('curve'); c.value = 'srgb';"
-                     "c.dispatchEvent(new Event('change'));})()")
+    other = state()
+    check(all(a != b for a, b in zip(first, other)), "tone curve and difference change both panes")
+    browser.evaluate("document.getElementById('zoom-reset').click()")
+    browser.settle()
+    check(state() == first, "Reset brings tone curve and difference back")
 
     kinds = browser.evaluate("[...document.getElementById('difference').options]"
                              ".map((o) => o.value)")
     check(kinds == ["log", "signed", "spectral", "dolp", "aolp"], f"differences: {kinds}")
     seen = set()
     for kind in kinds:
-        browser.evaluate(f"(() => {{const c = document.getElementById('difference'); c.value = "
-                         f"'{kind}'; c.dispatchEvent(new Event('change'));}})()")
+        choose("difference", kind)
         browser.settle()
         seen.add((fingerprint(browser, f"#pair-{metals[0]} .map canvas"),
                   browser.evaluate(f"document.querySelector('#pair-{metals[0]} .unit')"
                                    ".textContent")))
     check(len(seen) == len(kinds), "each difference is a picture and a legend of its own")
-    browser.evaluate("(() => {const c = document.getElementById('difference'); c.value = 'log';"
-                     "c.dispatchEvent(new Event('change'));})()")
+    choose("difference", "log")
 
     prints = [fingerprint(browser, f"#pair-{m} .under") for m in metals]
     for _ in range(3):
@@ -349,10 +356,10 @@ NAMES = r"""
 
 
 def look(browser, artifacts):
-    """Screenshots at three widths, light and dark, with contrast measured in each."""
+    """Screenshots at four widths, light and dark, with contrast measured in each."""
     for scheme in ("light", "dark"):
         browser.prefer(scheme)
-        for width in (400, 900, 1600):
+        for width in (320, 400, 900, 1600):
             browser.resize(width)
             browser.settle()
             browser.settle()
