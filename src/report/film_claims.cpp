@@ -108,8 +108,8 @@ std::vector<Claim> film_claims(const Study& study) {
                         : ours < theirs                  ? Verdict::partly
                                                          : Verdict::does_not_hold;
         plain.why =
-            "Holds below 5 % and a third of the film's. The sample has no oxide at all; what one "
-            "of 3 nm does is with the claim of section 1.";
+            "Holds below 5 % and a third of the film's. The sample has no oxide at all: one of "
+            "3 nm is tested with the claim of section 1.";
     }
     return {swings, layer, plain, substrate_claim()};
 }

@@ -23,8 +23,8 @@ struct Table1Metal {
 // where it has one.
 std::vector<Table1Metal> table_1(const Study& study);
 
-// What a number must fall short of to be hatched: |rho|^2 changes by less than this a unit of beta;
-// or the fit's standard deviation of n or k is more than this share of the value.
+// A number is hatched where |rho|^2 changes by less than the first a unit of beta, or where the
+// fit's standard deviation of n or k is more than the second, as a share of the value.
 constexpr double least_column_beta = 1e-9, largest_relative_sigma = 0.2;
 
 // What hatching means, and what these fits say of beta: plain text, every figure taken from them.

@@ -124,10 +124,12 @@ def tools(browser, metals):
     choose = lambda name, value: browser.evaluate(
         f"(() => {{const c = document.getElementById('{name}'); c.value = '{value}';"
         "c.dispatchEvent(new Event('change'));})()")
-    state = lambda: (fingerprint(browser, over), fingerprint(browser, f"#pair-{metals[0]} .map canvas"),
-                     browser.evaluate(f"document.querySelector('#pair-{metals[0]} .unit').textContent"),
-                     browser.evaluate("['curve', 'difference'].map((c) => "
-                                      "document.getElementById(c).value).join()"))
+    first_pair = f"#pair-{metals[0]}"
+    state = lambda: (
+        fingerprint(browser, over), fingerprint(browser, f"{first_pair} .map canvas"),
+        browser.evaluate(f"document.querySelector('{first_pair} .unit').textContent"),
+        browser.evaluate("document.getElementById('curve').value"),
+        browser.evaluate("document.getElementById('difference').value"))
     first = state()
     choose("curve", "reinhard")
     choose("difference", "dolp")

@@ -15,6 +15,7 @@
 #include "report/packed_layers.h"
 #include "report/paper_figures.h"
 #include "report/picture_data.h"
+#include "report/study_report.h"
 #include "report/table_1.h"
 
 namespace drude {
@@ -480,6 +481,34 @@ TEST(Claims, VerdictsFollowFromTheNumbers) {
         EXPECT_FALSE(c.finding.empty() && c.verdict != Verdict::not_tested) << c.id;
     }
     EXPECT_NO_THROW(paper_claims({}));
+}
+
+// Zinc has one published set beside its sample's: between one set there is nothing.
+TEST(Claims, OneSetIsNoEnvelope) {
+    Study study;
+    study.metals = {metal_of("Zn-Werner-DFT", "Zn-Werner", "zinc"),
+                    metal_of("Cu-McPeak", "Cu-Hagemann", "copper")};
+    const std::string finding = claim(paper_claims(study), "near-literature").finding;
+    EXPECT_NE(finding.find("zinc – (1 set)"), std::string::npos) << finding;
+    EXPECT_EQ(finding.find("copper –"), std::string::npos) << finding;
+}
+
+TEST(StudyPage, CountsTheAnglesItSpeaksOf) {
+    Study study;
+    study.metals = {metal_of("Cu-McPeak", "Cu-Hagemann", "copper")};
+    EXPECT_NE(study_page(study, {}).find("wavelength at 3 angles of incidence"), std::string::npos);
+    study.metals.push_back(metal_of("Ag-McPeak", "Ag-Johnson", "silver"));
+    SimulationSetup setup;
+    setup.angles_deg = paper_angles_deg();
+    setup.wavelengths_nm = {500, 600};
+    for (StudyMetal& metal : study.metals) {
+        metal.measurement = simulate_ellipsometer(find_material(metal.sample_set), setup);
+        const std::string page = study_page(study, {});
+        const bool both = &metal == &study.metals.back();
+        const char* text = both ? "at the paper&#39;s 6 angles of" : "at 3 to 6 angles of";
+        EXPECT_NE(page.find(text), std::string::npos) << text;
+        EXPECT_EQ(page.find("figure 6 below"), std::string::npos);  // there is no film
+    }
 }
 
 }  // namespace
