@@ -358,15 +358,19 @@ NAMES = r"""
 
 
 def look(browser, artifacts):
-    """Screenshots at four widths, light and dark, with contrast measured in each."""
+    """Screenshots at five widths, light and dark, with contrast measured in each."""
     for scheme in ("light", "dark"):
         browser.prefer(scheme)
-        for width in (320, 400, 900, 1600):
+        for width in (320, 400, 700, 900, 1600):
             browser.resize(width)
             browser.settle()
             browser.settle()
             wide = browser.evaluate("document.documentElement.scrollWidth")
             check(wide <= width, f"{scheme} {width}: nothing sticks out ({wide} pixels)")
+            narrow = browser.evaluate(
+                "[...document.querySelectorAll('.readout td')].filter((e) => "
+                "e.scrollWidth > e.clientWidth).map((e) => e.textContent)")
+            check(not narrow, f"{scheme} {width}: no number runs out of its cell {narrow[:3]}")
             low = browser.evaluate(CONTRAST)
             check(not low, f"{scheme} {width}: contrast {low[:4]}")
             browser.screenshot(artifacts / f"page-{scheme}-{width}.png")
