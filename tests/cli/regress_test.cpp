@@ -184,6 +184,8 @@ TEST(Regress, BadManifestsAndNamesAreErrorsWithTheirPlace) {
     EXPECT_NE(error_of("sampels", 3).find("did you mean 'samples'"), std::string::npos);
     EXPECT_NE(error_of("seed", 2).find("independent"), std::string::npos);
     EXPECT_NE(error_of("samples", 1.5).find("whole number"), std::string::npos);
+    EXPECT_NE(error_of("samples", 31).find("from 32 to"), std::string::npos);
+    EXPECT_NE(error_of("reference_samples", 16).find("from 32 to"), std::string::npos);
     EXPECT_NE(error_of("name", "../x").find("file's name"), std::string::npos);
     EXPECT_NE(error_of("largest_bias", 0).find("more than 0"), std::string::npos);
     write_manifest_of(folder, nlohmann::json::array({one_case("metal"), one_case("metal")}));
