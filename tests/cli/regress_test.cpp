@@ -166,6 +166,8 @@ TEST(Regress, ACaseWithoutReferenceAndABadSceneAreToldApart) {
     EXPECT_EQ(json["cases"][2]["status"], "missing");
     EXPECT_NE(read_text(folder.file("j.xml")).find("<error type=\"error\" message="),
               std::string::npos);
+    // The picture of the case without reference is on the page.
+    EXPECT_NE(read_text(folder.file("p.html")).find("alt=\"new, new picture\""), std::string::npos);
     // One broken scene does not keep the others from their references.
     const ProgramRun update = run_drude(folder, "regress . -q --update --all --why more");
     EXPECT_EQ(update.status, 2);
