@@ -11,6 +11,7 @@
 #include "base/numbers.h"
 #include "cli/command_list.h"
 #include "cli/compare_output.h"
+#include "cli/json_output.h"
 #include "image/difference.h"
 #include "image/sheet.h"
 #include "image/tonemap.h"
@@ -37,13 +38,13 @@ void read_range(const std::string& text, ColourBar& bar) {
     bar.high = *high;
 }
 
-void write_difference(const Image& a, const Image& b, const std::vector<std::string>& channels,
+void write_difference(const Image& a, const Image& b, const Comparison& comparison,
                       const Options& options, const ColourBar& bar) {
     if (std::filesystem::path(options.output).extension() == ".exr") {
         Image difference;
         difference.width = a.width;
         difference.height = a.height;
-        for (const std::string& name : channels) {
+        for (const std::string& name : comparison.channels) {
             Channel& channel = difference.add(name);
             const Channel& in_a = a.at(name, options.a);
             const Channel& in_b = b.at(name, options.b);
@@ -55,9 +56,9 @@ void write_difference(const Image& a, const Image& b, const std::vector<std::str
         return;
     }
     const std::vector<double> values =
-        options.z_map       ? standard_error_difference(a, b, channels, options.a, options.b)
-        : options.is_signed ? signed_difference(a, b, channels)
-                            : log_difference(a, b, channels);
+        options.z_map ? standard_error_difference(a, b, comparison.channels, options.a, options.b)
+        : options.is_signed ? signed_difference(a, b, comparison.figure_channels)
+                            : log_difference(a, b, comparison.figure_channels);
     const Picture picture = with_colour_bar(map_values(a.width, a.height, values, bar), bar);
     write_png(options.output, picture.width, picture.height, picture.rgb);
 }
@@ -96,6 +97,34 @@ std::optional<FlipResult> flip_of(const Image& a, const Image& b, const Options&
     return options.flip == "hdr" ? flip_hdr(in_a, in_b, flip) : flip_ldr(in_a, in_b, flip);
 }
 
+bool same_file(const std::string& a, const std::string& b) {
+    std::error_code no_a, no_b;
+    // Absolute first: a relative name that does not exist would stay relative.
+    const auto path_a = std::filesystem::weakly_canonical(std::filesystem::absolute(a), no_a);
+    const auto path_b = std::filesystem::weakly_canonical(std::filesystem::absolute(b), no_b);
+    // What cannot be resolved cannot be written either; its own error comes later.
+    return no_a || no_b ? a == b : path_a == path_b;
+}
+
+// No result takes the place of a picture that was given, or of the other result.
+void check_outputs(const Options& options) {
+    const std::pair<const char*, const std::string*> outputs[] = {{"-o", &options.output},
+                                                                  {"--pair", &options.pair}};
+    for (const auto& [option, output] : outputs) {
+        if (output->empty()) continue;
+        for (const std::string* input : {&options.a, &options.b}) {
+            if (same_file(*output, *input)) {
+                user_error("{} {}: is a picture that is compared; name another file", option,
+                           *output);
+            }
+        }
+    }
+    if (!options.output.empty() && !options.pair.empty() &&
+        same_file(options.output, options.pair)) {
+        user_error("-o {} and --pair {}: are one file; name two", options.output, options.pair);
+    }
+}
+
 // Everything that can be wrong with the options alone, before files are read.
 ColourBar check(const Options& options) {
     if (options.exact && !options.tolerance.empty()) {
@@ -127,6 +156,7 @@ ColourBar check(const Options& options) {
     if (!(options.alpha > 0.0) || !(options.alpha < 1.0)) {
         user_error("--alpha {}: expected a probability between 0 and 1, e.g. 0.001", options.alpha);
     }
+    check_outputs(options);
     ColourBar bar = options.z_map       ? standard_error_bar()
                     : options.is_signed ? signed_difference_bar()
                                         : log_difference_bar();
@@ -149,13 +179,13 @@ int run(const Options& options, const CommonOptions& common) {
     }
     const Comparison comparison = compare_images(a, b, options.a, options.b, compare);
     if (!options.output.empty()) {
-        write_difference(a, b, comparison.channels, options, bar);
+        write_difference(a, b, comparison, options, bar);
     }
     if (!options.pair.empty()) write_pair(a, b, options, common.threads);
     const std::optional<FlipResult> flip = flip_of(a, b, options, common.threads);
     const CompareWords words = {options.a, options.b, options.flip, options.alpha};
     if (common.json) {
-        fmt::print("{}\n", comparison_json(comparison, flip, words).dump(2));
+        print_json_document(comparison_json(comparison, flip, words));
     } else {
         print_comparison(comparison, flip, words);
     }
@@ -182,7 +212,11 @@ Command compare_command() {
         "Pictures of different sizes, of different scenes (attribute sceneHash; --any-scene "
         "allows it), with other channels or with spectral layers of other wavelengths are errors "
         "of their own.\n\n"
-        "Figures: mean error (a - b), mean absolute error, RMSE, relative MSE "
+        "What is compared unless --channels says so: R, G, B (or Y), and S1 to S3 where both files "
+        "have them, for light can change its polarisation and keep its colour. The figures and "
+        "the pictures of --log and --signed are of R, G, B alone then.\n\n"
+        "Figures (null in JSON where no value is finite in both): mean error (a - b), mean "
+        "absolute error, RMSE, relative MSE "
         "((a - b)^2 / (b^2 + 0.01)), SMAPE, PSNR (peak: largest |b|), largest error; --flip adds "
         "FLIP (Andersson et al. 2020, at 67 pixels a degree; hdr: 2021, the worst of many "
         "exposures). Where both files have S0 to S3: their errors one by one, and those of the "
@@ -212,7 +246,7 @@ Command compare_command() {
                    "ABS,REL,PERCENT: the difference that is allowed.");
         set.option("--alpha", options->alpha, "Probability of a false alarm of the noise test.");
         set.option("--channels", options->channels,
-                   "Channels, layers (S1 for S1.*) or 'all'; R,G,B unless given.");
+                   "Channels, layers (S1 for S1.*) or 'all'; R,G,B and S1 to S3 unless given.");
         set.flag("--log", options->log, "Draw log10 |a - b|, the default.");
         set.flag("--signed", options->is_signed, "Draw a - b.");
         set.flag("--z-map", options->z_map, "Draw (a - b) / standard error.");

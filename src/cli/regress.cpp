@@ -100,6 +100,10 @@ Json to_json(const ReferenceManifest& manifest, const RegressResult& run,
 
 void print(const ReferenceManifest& manifest, const RegressResult& run) {
     for (const CaseResult& result : run.cases) {
+        if (result.good() && result.scene_changed) {
+            fmt::print("{}: passed, but the scene or a file it names is not the reference's\n",
+                       result.declared.name);
+        }
         if (result.good() || result.status == CaseStatus::skipped) continue;
         fmt::print("{}: {}\n  {}\n", result.declared.name, status_word(result.status),
                    result.message);
@@ -140,12 +144,16 @@ std::string reason(const Options& options) {
     return why;
 }
 
+struct Updates {
+    std::vector<std::string> names;
+    int status = 0;  // the worst cause of a case that could not be updated
+};
+
 // Renders the references of the cases that are not as they should be (or of all that were chosen)
-// and names them.
-std::vector<std::string> update(ReferenceManifest* manifest, const RegressResult& run,
-                                const std::string& why, const Options& options,
-                                const CommonOptions& common) {
-    std::vector<std::string> updated;
+// and names them. A case that cannot be rendered is told, and does not keep the others.
+Updates update(const ReferenceManifest& manifest, const RegressResult& run, const std::string& why,
+               const Options& options, const CommonOptions& common) {
+    Updates updates;
     for (const CaseResult& result : run.cases) {
         const bool stale =
             result.status == CaseStatus::failed || result.status == CaseStatus::weak ||
@@ -153,16 +161,29 @@ std::vector<std::string> update(ReferenceManifest* manifest, const RegressResult
             // The scene is well, the reference is not.
             (result.status == CaseStatus::error && result.rendered.width > 0) || options.all;
         if (!stale || interrupted()) continue;
-        const auto one =
-            std::find_if(manifest->cases.begin(), manifest->cases.end(),
-                         [&](const ReferenceCase& c) { return c.name == result.declared.name; });
-        update_reference(*manifest, &*one, why, common.threads, common.quiet);
-        // At once, so that an interrupt later does not part the picture from its history.
-        write_manifest(*manifest);
-        updated.push_back(one->name);
-        if (!common.quiet) fmt::print(stderr, "drude: {} updated\n", one->name);
+        const std::string& name = result.declared.name;
+        try {
+            ReferenceCase one = result.declared;
+            update_reference(manifest, &one, why, common.threads, common.quiet);
+            // At once, so that an interrupt later does not part the picture from its history; and
+            // into the manifest as it is now, which someone may have edited in the meantime.
+            ReferenceManifest current = read_manifest(manifest.folder);
+            const auto entry = std::find_if(current.cases.begin(), current.cases.end(),
+                                            [&](const ReferenceCase& c) { return c.name == name; });
+            if (entry == current.cases.end()) {
+                user_error("{}: the case is no longer there; its reference was rendered",
+                           current.path());
+            }
+            entry->history.push_back(one.history.back());
+            write_manifest(current);
+            updates.names.push_back(name);
+            if (!common.quiet) fmt::print(stderr, "drude: {} updated\n", name);
+        } catch (const Error& error) {
+            fmt::print(stderr, "drude: {}: not updated: {}\n", name, error.message());
+            updates.status = std::max(updates.status, static_cast<int>(error.cause()));
+        }
     }
-    return updated;
+    return updates;
 }
 
 int exit_status(const RegressResult& run) {
@@ -191,11 +212,11 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
     regress.threads = common.threads;
     regress.quiet = common.quiet;
     RegressResult result = run_regress(manifest, regress);
-    std::vector<std::string> updated;
+    Updates updates;
     if (options.update) {
-        updated = update(&manifest, result, why, options, common);
+        updates = update(manifest, result, why, options, common);
         // What counts is how the new references fare.
-        if (!updated.empty() && !interrupted()) {
+        if (!updates.names.empty() && !interrupted()) {
             manifest = read_manifest(options.folder);
             result = run_regress(manifest, regress);
         }
@@ -203,11 +224,11 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
     if (!options.html.empty()) write_file(options.html, regress_page(manifest, result));
     if (!options.junit.empty()) write_file(options.junit, junit_xml(result));
     if (common.json) {
-        print_json_document(to_json(manifest, result, updated));
+        print_json_document(to_json(manifest, result, updates.names));
     } else {
         print(manifest, result);
     }
-    return exit_status(result);
+    return std::max(exit_status(result), updates.status);
 }
 
 }  // namespace

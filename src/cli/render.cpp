@@ -13,6 +13,7 @@
 #include "base/executor.h"
 #include "base/interrupt.h"
 #include "cli/command_list.h"
+#include "cli/json_output.h"
 #include "render/environment_choice.h"
 #include "render/transport_choice.h"
 #include "scene/resolution.h"
@@ -105,7 +106,7 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
                                      {"threads", threads},
                                      {"interrupted", result.interrupted},
                                      {"warnings", result.warnings}};
-        fmt::print("{}\n", json.dump(2));
+        print_json_document(json);
     } else {
         fmt::print("{}: {} samples a pixel, {:.3g} million rays in {:.2f} s on {} threads\n",
                    options.output, result.samples_per_pixel, static_cast<double>(result.rays) / 1e6,

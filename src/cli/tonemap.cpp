@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "cli/command_list.h"
+#include "cli/json_output.h"
 #include "image/image.h"
 
 namespace drude {
@@ -68,7 +69,7 @@ int run(const Options& options, const CommonOptions& common) {
     }
     write_png(options.output, image.width, image.height, expose(std::move(rgb), options.exposure));
     if (common.json) {
-        fmt::print("{}\n", json.dump(2));
+        print_json_document(json);
     } else if (json.contains("compression")) {
         fmt::print("{}: base contrast times {:.4g}, white at {:.4g}\n", options.output,
                    json["compression"].get<double>(),

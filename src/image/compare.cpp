@@ -42,8 +42,14 @@ struct Totals {
         count += other.count;
     }
     Figures figures() const {
-        const double n = std::max<double>(1.0, static_cast<double>(count));
         Figures result;
+        if (count == 0) {
+            // Nothing was compared, which is not the same as nothing being off.
+            constexpr double none = std::numeric_limits<double>::quiet_NaN();
+            result = {none, none, none, none, none, none, none};
+            return result;
+        }
+        const double n = static_cast<double>(count);
         result.mean_error = difference / n;
         result.mae = absolute / n;
         result.rmse = std::sqrt(square / n);
@@ -89,6 +95,32 @@ std::vector<std::string> default_channels(const Image& a, const Image& b) {
     return {"R", "G", "B"};
 }
 
+// S1.R to S3.B where both have all of them: what R, G, B do not show.
+std::vector<std::string> polarised_channels(const Image& a, const Image& b) {
+    std::vector<std::string> names;
+    for (const char* layer : {"S1", "S2", "S3"}) {
+        for (const char* colour : {"R", "G", "B"}) {
+            names.push_back(fmt::format("{}.{}", layer, colour));
+            if (!a.find(names.back()) || !b.find(names.back())) return {};
+        }
+    }
+    return names;
+}
+
+// How large a difference of the means could have hidden in the noise: a pass says no more.
+std::string blind_spot(const Comparison& result) {
+    MeanTest worst;
+    for (size_t c = 0; c < result.figure_channels.size(); ++c) {
+        const MeanTest& mean = result.noise->means[c];
+        if (mean.detectable_bias > worst.detectable_bias) worst = mean;
+    }
+    if (!(worst.detectable_bias > 0.0)) return "";
+    const double share = 100.0 * worst.detectable_bias / std::abs(worst.reference);
+    return fmt::format("; a difference of the means below {:.3g}{} would not show",
+                       worst.detectable_bias,
+                       std::isfinite(share) ? fmt::format(" ({:.3g} % of B's)", share) : "");
+}
+
 bool same_bits(const Image& a, const Image& b) {
     for (const Channel& channel : a.channels) {
         const Channel* other = b.find(channel.name);
@@ -128,9 +160,12 @@ void decide(const Image& a, const Image& b, const std::string& name_a, const std
         result.reason = fmt::format(
             "the difference is {} by noise: corrected p = {:.3g} against alpha = {:g}",
             result.same ? "explained" : "not explained", result.noise->p_min, options.alpha);
+        if (result.same) result.reason += blind_spot(result);
     } else {
         result.decision = Decision::identical;
-        result.same = result.all.max_error == 0.0 && result.not_finite == 0;
+        result.same = result.not_finite == 0 &&
+                      std::all_of(result.each.begin(), result.each.end(),
+                                  [](const Figures& one) { return one.max_error == 0.0; });
         result.reason = result.same
                             ? "all values compared are equal"
                             : "the values are not equal (no variances to hold them against in both "
@@ -214,10 +249,18 @@ Comparison compare_images(const Image& a, const Image& b, const std::string& nam
     if (options.exact) check_same_names(a, b, name_a, name_b);
     Comparison result;
     result.channels = options.channels;
+    result.figure_channels = options.channels;
     if (result.channels.empty()) {
         result.channels = default_channels(a, b);
         // With --exact any channels will do: the figures are then over all of them.
         if (options.exact && !a.find(result.channels.front())) result.channels = sorted_names(a);
+        result.figure_channels = result.channels;
+        for (const std::string& name : polarised_channels(a, b)) {
+            if (std::find(result.channels.begin(), result.channels.end(), name) ==
+                result.channels.end()) {
+                result.channels.push_back(name);
+            }
+        }
     }
     Totals all;
     for (const std::string& name : result.channels) {
@@ -238,7 +281,7 @@ Comparison compare_images(const Image& a, const Image& b, const std::string& nam
             }
         }
         result.each.push_back(totals.figures());
-        all.add(totals);
+        if (result.each.size() <= result.figure_channels.size()) all.add(totals);
     }
     result.all = all.figures();
     for (const std::vector<std::string>& names : stokes_channels(a, b)) {

@@ -21,7 +21,7 @@ struct Tolerance {
 Tolerance parse_tolerance(const std::string& text);
 
 struct CompareOptions {
-    // Empty: R, G, B; where an image lacks them, Y.
+    // Empty: R, G, B; where an image lacks them, Y; and S1.R to S3.B where both have them.
     std::vector<std::string> channels;
     bool exact = false;
     std::optional<Tolerance> tolerance;
@@ -35,7 +35,8 @@ struct CompareOptions {
 // variances of all channels compared, and `identical` (the values of those channels) where not.
 enum class Decision { exact, tolerance, noise, identical };
 
-// Differences a - b over all pixels and channels compared, b being the reference.
+// Differences a - b over pixels and channels, b being the reference; NaN where no value is finite
+// in both pictures.
 struct Figures {
     double mean_error = 0.0;  // bias
     double mae = 0.0;
@@ -51,6 +52,9 @@ struct Comparison {
     Decision decision = Decision::identical;
     std::string reason;  // one line for people
     std::vector<std::string> channels;
+    // Those that `all` is over: without S1.R to S3.B where these were not asked for, so that the
+    // figures of a picture do not depend on whether its file holds its polarisation as well.
+    std::vector<std::string> figure_channels;
     Figures all;
     std::vector<Figures> each;  // one a channel
     // Pixels and channels that are NaN or infinite in either image: left out of the figures, and

@@ -18,8 +18,12 @@ constexpr int block_side = 8;
 struct Sums {
     double a = 0.0, b = 0.0;
     double variance_a = 0.0, variance_b = 0.0;
-    // Sums of squared variances over their degrees of freedom (Satterthwaite).
-    double spread = 0.0;
+    // Sums of squared variances over their degrees of freedom (Satterthwaite), and the degrees of
+    // one pixel.
+    double spread_a = 0.0, spread_b = 0.0;
+    double degrees_a = 0.0, degrees_b = 0.0;
+    // Sum of the larger |mean| of each pixel: what is rounded, whatever cancels in a and b.
+    double magnitude = 0.0;
     double pixels = 0.0;
     // Batches of a over those of b where both are of one size, otherwise 0.
     double batch_ratio = 0.0;
@@ -40,7 +44,11 @@ struct Sums {
         b += other.b;
         variance_a += other.variance_a;
         variance_b += other.variance_b;
-        spread += other.spread;
+        spread_a += other.spread_a;
+        spread_b += other.spread_b;
+        degrees_a = other.degrees_a;
+        degrees_b = other.degrees_b;
+        magnitude += other.magnitude;
         pixels += other.pixels;
         batch_ratio = other.batch_ratio;
         finite = finite && other.finite;
@@ -50,7 +58,7 @@ struct Sums {
 // Pixels are stored as float32: a difference within the rounding of their means is none.
 double rounding(const Sums& sums) {
     constexpr double relative = 2.4e-7;
-    return relative * std::max(std::abs(sums.a), std::abs(sums.b));
+    return relative * sums.magnitude;
 }
 
 double standard_error(const Sums& sums) {
@@ -58,9 +66,21 @@ double standard_error(const Sums& sums) {
 }
 
 double degrees_of_freedom(const Sums& sums) {
-    const double variance = sums.variance_a + sums.variance_b;
+    const double spread = sums.spread_a + sums.spread_b;
     // A variance of zero leaves the rounding floor alone, which is not estimated from batches.
-    return sums.spread > 0.0 ? variance * variance / sums.spread : 1e9;
+    if (!(spread > 0.0)) return 1e9;
+    if (!(sums.batch_ratio > 0.0)) {
+        // Few batches find a variance near zero now and then. Satterthwaite's weights then follow
+        // the other side, whose many degrees say nothing of the side that is not known: the fewer
+        // degrees of the two hold whatever the true variances are.
+        const auto own = [](double variance, double spread_of_one, double degrees) {
+            return spread_of_one > 0.0 ? variance * variance / spread_of_one : degrees;
+        };
+        return std::min(own(sums.variance_a, sums.spread_a, sums.degrees_a),
+                        own(sums.variance_b, sums.spread_b, sums.degrees_b));
+    }
+    const double variance = sums.variance_a + sums.variance_b;
+    return variance * variance / spread;
 }
 
 // The difference in standard errors; infinite where either is not finite, or where nothing is
@@ -136,8 +156,11 @@ struct ChannelPair {
         sums.finite = std::isfinite(a[i]) && std::isfinite(b[i]);
         sums.variance_a = static_cast<double>(variance_a[i]);
         sums.variance_b = static_cast<double>(variance_b[i]);
-        sums.spread = sums.variance_a * sums.variance_a / degrees_a +
-                      sums.variance_b * sums.variance_b / degrees_b;
+        sums.spread_a = sums.variance_a * sums.variance_a / degrees_a;
+        sums.spread_b = sums.variance_b * sums.variance_b / degrees_b;
+        sums.degrees_a = degrees_a;
+        sums.degrees_b = degrees_b;
+        if (sums.finite) sums.magnitude = std::max(std::abs(sums.a), std::abs(sums.b));
         sums.pixels = 1.0;
         sums.batch_ratio = batch_ratio;
         return sums;

@@ -7,7 +7,9 @@
 // the whole comparison is at most `alpha`. Pixels are taken as independent of each other: a
 // renderer with a filter wider than a pixel needs another test. Where both pictures say that their
 // batches are of one size (attribute `batchSize`), the larger of the two variances of a batch
-// stands for both, which keeps skewed noise from being taken for a difference.
+// stands for both, which keeps skewed noise from being taken for a difference; elsewhere the
+// degrees of freedom are those of the picture that has fewer (of a sum, Satterthwaite's of its own
+// variances), which hold however far apart the variances are, at some loss of power.
 #pragma once
 
 #include <string>

@@ -27,17 +27,17 @@ std::string junit_xml(const RegressResult& run) {
                 xml += ">\n      <skipped/>\n";
                 break;
             case CaseStatus::error:
-                fmt::format_to(out, ">\n      <error message=\"{}\"/>\n", message);
-                break;
             case CaseStatus::failed:
             case CaseStatus::weak:
-            case CaseStatus::missing:
+            case CaseStatus::missing: {
+                const char* element = result.status == CaseStatus::error ? "error" : "failure";
                 fmt::format_to(
-                    out, ">\n      <failure type=\"{}\" message=\"{}\">{}\n{}\n{}",
-                    status_word(result.status), message, escape_markup(result.render_command),
-                    escape_markup(result.compare_command), escape_markup(result.update_command));
-                xml += "</failure>\n";
+                    out, ">\n      <{0} type=\"{1}\" message=\"{2}\">{3}\n{4}\n{5}</{0}>\n",
+                    element, status_word(result.status), message,
+                    escape_markup(result.render_command), escape_markup(result.compare_command),
+                    escape_markup(result.update_command));
                 break;
+            }
         }
         xml += "    </testcase>\n";
     }

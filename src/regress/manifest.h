@@ -6,7 +6,8 @@
 //   cases[].scene     a pbrt scene, relative to the manifest
 //   cases[].purpose   one sentence for people
 //   cases[].samples, seed                      of the picture that every run renders
-//   cases[].reference_samples, reference_seed  of the reference; the seeds must differ
+//   cases[].reference_samples, reference_seed  of the reference; the seeds must differ, and the
+//                     samples of both be 32 or more: two batches of 16, alike in both pictures
 //   cases[].largest_bias   the run must be able to see a bias of this fraction of the mean S0; a
 //                          comparison too noisy for it fails
 //   cases[].wavelengths (0: the renderer's choice), transport ("stokes": S0..S3 are compared,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <limits>
 
 #include "base/executor.h"
 #include "base/interrupt.h"
@@ -63,12 +64,16 @@ std::string render_command(const std::string& scene, const ReferenceCase& one, i
     return command + " -o " + quoted(output);
 }
 
-// The bias of a mean of S0 (or R, G, B) that the pair could have revealed, as a fraction of it.
+// The bias of a mean of S0 (or R, G, B) that the pair could have revealed, as a fraction of it;
+// infinite where that is 0, for a black picture shows nothing.
 double relative_bias(const NoiseTest& noise) {
     double largest = 0;
     for (const MeanTest& mean : noise.means) {
         const bool is_s0 = mean.channel.size() == 1 || mean.channel.rfind("S0.", 0) == 0;
-        if (is_s0) largest = std::max(largest, mean.detectable_bias / std::abs(mean.reference));
+        if (!is_s0) continue;
+        const double share = mean.reference != 0 ? mean.detectable_bias / std::abs(mean.reference)
+                                                 : std::numeric_limits<double>::infinity();
+        largest = std::max(largest, share);
     }
     return largest;
 }
@@ -106,10 +111,14 @@ void judge(CaseResult* result, double alpha) {
                                       where_found(noise.worst), p, alpha);
     } else if (!(result->detectable_bias <= one.largest_bias)) {
         result->status = CaseStatus::weak;
-        result->message = fmt::format(
-            "no difference seen, but a bias below {:.3g} of S0 could not be; the manifest asks "
-            "for {:.3g}: take more samples",
-            result->detectable_bias, one.largest_bias);
+        result->message =
+            std::isinf(result->detectable_bias)
+                ? "no difference seen, but S0 is 0 everywhere in one colour or all: such a picture "
+                  "shows nothing; give the scene light"
+                : fmt::format(
+                      "no difference seen, but a bias below {:.3g} of S0 could not be; the "
+                      "manifest asks for {:.3g}: take more samples",
+                      result->detectable_bias, one.largest_bias);
     } else {
         result->status = CaseStatus::passed;
         result->message = fmt::format("corrected p = {:.3g}; a bias of {:.3g} of S0 would show",
@@ -120,12 +129,39 @@ void judge(CaseResult* result, double alpha) {
     }
 }
 
+// What the renderer itself says is a defect of it, whatever the picture looks like; empty: nothing.
+std::string defects_of(const RenderResult& rendered) {
+    if (rendered.not_finite == 0 && rendered.projections == 0) return "";
+    return fmt::format(
+        "the renderer met {} contributions that are not finite and {} outside the cone of physical "
+        "light",
+        rendered.not_finite, rendered.projections);
+}
+
+// The picture must be the one that the manifest describes: one of the run's own seed would agree
+// with the run exactly, and say nothing.
+void check_reference(const ReferenceCase& one, const Image& reference, const std::string& path) {
+    const std::string seed = reference.text("seed");
+    if (seed != fmt::format("{}", one.reference_seed)) {
+        user_error("{}: was rendered with {}; the manifest says {}; render it with --update", path,
+                   seed.empty() ? "a seed it does not tell" : "seed " + seed, one.reference_seed);
+    }
+    const double samples = reference.number("samples", 0.0);
+    if (!(samples >= one.reference_samples)) {
+        user_error(
+            "{}: was rendered with {:.0f} samples a pixel; the manifest says {}; render it with "
+            "--update",
+            path, samples, one.reference_samples);
+    }
+}
+
 void run_case(const ReferenceManifest& manifest, double alpha, CaseResult* result) {
     const ReferenceCase& one = result->declared;
     const std::string reference = manifest.reference_path(one);
     const bool has_reference = std::filesystem::exists(reference);
     const Scene scene = prepared_scene(manifest, one);
     RenderResult rendered = render_case(scene, one, one.samples, result->seed, 1, true);
+    const std::string defects = defects_of(rendered);
     result->rendered = std::move(rendered.image);
     if (rendered.interrupted) return;
     if (!has_reference) {
@@ -134,6 +170,7 @@ void run_case(const ReferenceManifest& manifest, double alpha, CaseResult* resul
         return;
     }
     result->reference = read_exr(reference);
+    check_reference(one, result->reference, reference);
     result->scene_changed = result->reference.text("sceneHash") != scene.sha256;
     CompareOptions options;
     options.channels = reference_channels(one.stokes);
@@ -143,6 +180,10 @@ void run_case(const ReferenceManifest& manifest, double alpha, CaseResult* resul
     result->comparison =
         compare_images(result->rendered, result->reference, "the new picture", reference, options);
     judge(result, alpha);
+    if (!defects.empty()) {
+        result->status = CaseStatus::failed;
+        result->message = defects + "; " + result->message;
+    }
 }
 
 bool fits(const std::string& name, const std::string& pattern) {
@@ -283,6 +324,10 @@ void update_reference(const ReferenceManifest& manifest, ReferenceCase* one, con
     if (rendered.interrupted) {
         throw Error(Cause::user,
                     fmt::format("{}: interrupted; its reference stays as it was", one->name));
+    }
+    if (const std::string defects = defects_of(rendered); !defects.empty()) {
+        throw Error(Cause::user,
+                    fmt::format("{}: {}; its reference stays as it was", one->name, defects));
     }
     Image& image = rendered.image;
     if (one->stokes) {

@@ -27,10 +27,12 @@ struct RegressOptions {
 
 enum class CaseStatus {
     passed,
-    failed,   // another picture
-    weak,     // the same as far as can be seen, but a bias of largest_bias could not be seen
+    failed,   // another picture, or contributions that the renderer itself calls a defect
+    weak,     // the same as far as can be seen, but a bias of largest_bias could not be seen; a
+              // picture without light is such a one
     missing,  // there is no reference
-    error,    // the scene cannot be rendered, or the reference cannot be compared
+    error,    // the scene cannot be rendered, or the reference cannot be compared or is not the
+              // one that the manifest describes (seed, samples)
     skipped,  // interrupted before its turn
 };
 // "passed", "failed", ...
@@ -67,7 +69,8 @@ struct RegressResult {
 RegressResult run_regress(const ReferenceManifest& manifest, const RegressOptions& options);
 
 // Renders the reference of one case and writes it beside the manifest; adds to its history. The
-// manifest itself is the caller's to write. Throws Error.
+// manifest itself is the caller's to write. Throws Error, leaving the reference as it was, also
+// where the renderer reports contributions that are not finite or not physical.
 void update_reference(const ReferenceManifest& manifest, ReferenceCase* one, const std::string& why,
                       int threads, bool quiet);
 

@@ -162,8 +162,9 @@ void Page::comparison(const PagePicture& left, const std::string& left_label,
 
 void Page::swap(const PagePicture& shown, const PagePicture& beneath, const std::string& caption) {
     add(body_,
-        "<figure><div class=\"swap\" tabindex=\"0\">{}<div class=\"over\">{}</div></div>{}"
-        "</figure>\n",
+        "<figure><div class=\"swap\" tabindex=\"0\" role=\"group\" "
+        "aria-label=\"Two pictures in one place: the second shows with the focus\">{}"
+        "<div class=\"over\">{}</div></div>{}</figure>\n",
         image_element(beneath), image_element(shown), caption_element(caption));
 }
 

@@ -152,9 +152,20 @@ void add_case(const CaseResult& result, Page* page) {
                                   "furthest off: {:g} (blue) to {:g} (orange).",
                                   standard_error_bar().low, standard_error_bar().high));
         page->end_grid();
+    } else if (result.rendered.width > 0) {
+        // There is nothing to hold it against; what was rendered is seen all the same.
+        const Scales scales = scales_of(result.rendered, one.stokes);
+        page->picture(
+            picture_strip(result.rendered, one.stokes, scales, one.name + ", new picture"),
+            "The new picture.");
     }
     page->code(fmt::format("# render again, compare\n{}\n{}\n# make it the reference\n{}",
                            result.render_command, result.compare_command, result.update_command));
+}
+
+// The smallest doubles end at 1e-308.
+std::string p_text(double p) {
+    return p > 0 ? fmt::format("{:.3g}", p) : "< 1e-300";
 }
 
 PageTable means_table(const RegressResult& run) {
@@ -166,12 +177,11 @@ PageTable means_table(const RegressResult& run) {
     table.numeric = {false, false, true, true, true, true, false};
     for (const CaseResult& result : run.cases) {
         const bool compared = result.comparison && result.comparison->noise;
-        table.rows.push_back(
-            {result.declared.name, std::string(status_word(result.status)),
-             compared ? fmt::format("{:.3g}", result.comparison->noise->p_min) : "",
-             compared ? fmt::format("{:.2g}", result.detectable_bias) : "",
-             compared ? fmt::format("{:.2g}", result.comparison->all.rmse) : "",
-             fmt::format("{:.2f}", result.seconds), result.declared.purpose});
+        table.rows.push_back({result.declared.name, std::string(status_word(result.status)),
+                              compared ? p_text(result.comparison->noise->p_min) : "",
+                              compared ? fmt::format("{:.2g}", result.detectable_bias) : "",
+                              compared ? fmt::format("{:.2g}", result.comparison->all.rmse) : "",
+                              fmt::format("{:.2f}", result.seconds), result.declared.purpose});
     }
     return table;
 }
@@ -181,10 +191,11 @@ PageTable means_table(const RegressResult& run) {
 std::string regress_page(const ReferenceManifest& manifest, const RegressResult& run) {
     Page page("Regression against reference pictures");
     page.banner("drude " DRUDE_VERSION,
-                fmt::format("{} of {} cases of {} passed, {} did not. An unchanged program fails "
+                fmt::format("{} of {} cases of {} passed, {} did not, {} were not reached. An "
+                            "unchanged program fails "
                             "such a run with a probability of at most {:g}.",
                             run.count(CaseStatus::passed), run.cases.size(), manifest.folder,
-                            run.failed(), run.alpha));
+                            run.failed(), run.count(CaseStatus::skipped), run.alpha));
     if (run.failed() > 0) {
         page.section("Not passed", "failed");
         for (const CaseResult& result : run.cases) {

@@ -78,5 +78,36 @@ TEST(CompareCommand, PicturesOfTheDifference) {
     EXPECT_EQ(blueness(z, 16, 16), blueness(z, 30, 20));
 }
 
+TEST(CompareCommand, ResultsDoNotReplaceWhatIsCompared) {
+    const TemporaryFolder folder;
+    Image image;
+    image.width = image.height = 2;
+    for (const char* name : {"B", "G", "R"}) image.add(name);
+    write_exr(folder.file("a.exr"), image, Compression::zip);
+    const std::string before = read_text(folder.file("a.exr"));
+    for (const char* output :
+         {"-o a.exr", "-o ./a.exr", "-o d.png --pair ./d.png", "-o ../\"${PWD##*/}\"/a.exr"}) {
+        const ProgramRun run = run_drude(folder, std::string("compare a.exr a.exr ") + output);
+        EXPECT_EQ(run.status, 2) << output << run.out;
+        EXPECT_NE(run.err.find("name "), std::string::npos) << run.err;
+    }
+    EXPECT_EQ(read_text(folder.file("a.exr")), before);
+    EXPECT_EQ(run_drude(folder, "compare a.exr a.exr -o d.exr").status, 0);
+}
+
+TEST(CompareCommand, JsonOfNamesThatAreNoUtf8) {
+    const TemporaryFolder folder;
+    Image image;
+    image.width = image.height = 2;
+    for (const char* name : {"B", "G", "R"}) image.add(name);
+    write_exr(folder.file("a\xff.exr"), image, Compression::zip);
+    const ProgramRun compare = run_drude(folder, "compare a\xff.exr a\xff.exr --json");
+    EXPECT_EQ(compare.status, 0) << compare.err;
+    EXPECT_TRUE(nlohmann::json::accept(compare.out)) << compare.out;
+    const ProgramRun tonemap = run_drude(folder, "tonemap a\xff.exr -o b\xff.png --json");
+    EXPECT_EQ(tonemap.status, 0) << tonemap.err;
+    EXPECT_TRUE(nlohmann::json::accept(tonemap.out)) << tonemap.out;
+}
+
 }  // namespace
 }  // namespace drude

@@ -164,9 +164,22 @@ TEST(Regress, ACaseWithoutReferenceAndABadSceneAreToldApart) {
     EXPECT_EQ(json["cases"][1]["status"], "error");
     EXPECT_NE(json["cases"][1]["message"].get<std::string>().find("bad.pbrt:2"), std::string::npos);
     EXPECT_EQ(json["cases"][2]["status"], "missing");
-    EXPECT_NE(read_text(folder.file("j.xml")).find("<error message="), std::string::npos);
+    EXPECT_NE(read_text(folder.file("j.xml")).find("<error type=\"error\" message="),
+              std::string::npos);
+    // The picture of the case without reference is on the page.
+    EXPECT_NE(read_text(folder.file("p.html")).find("alt=\"new, new picture\""), std::string::npos);
+    // One broken scene does not keep the others from their references.
+    const ProgramRun update = run_drude(folder, "regress . -q --update --all --why more");
+    EXPECT_EQ(update.status, 2);
+    EXPECT_NE(update.err.find("bad: not updated: "), std::string::npos) << update.err;
+    EXPECT_TRUE(std::filesystem::exists(folder.file("new.exr")));
     const ProgramRun some = run_drude(folder, "regress . -q --only 'm*'");
     EXPECT_EQ(some.status, 0) << some.out;
+    // The same picture of another file is a pass that is told.
+    write_text(folder.file("metal.pbrt"), "# another line\n" + scene_of(1.04));
+    const ProgramRun changed = run_drude(folder, "regress . -q --only metal");
+    EXPECT_EQ(changed.status, 0) << changed.out;
+    EXPECT_NE(changed.out.find("metal: passed, but the scene"), std::string::npos) << changed.out;
 }
 
 TEST(Regress, BadManifestsAndNamesAreErrorsWithTheirPlace) {
@@ -184,6 +197,8 @@ TEST(Regress, BadManifestsAndNamesAreErrorsWithTheirPlace) {
     EXPECT_NE(error_of("sampels", 3).find("did you mean 'samples'"), std::string::npos);
     EXPECT_NE(error_of("seed", 2).find("independent"), std::string::npos);
     EXPECT_NE(error_of("samples", 1.5).find("whole number"), std::string::npos);
+    EXPECT_NE(error_of("samples", 31).find("from 32 to"), std::string::npos);
+    EXPECT_NE(error_of("reference_samples", 16).find("from 32 to"), std::string::npos);
     EXPECT_NE(error_of("name", "../x").find("file's name"), std::string::npos);
     EXPECT_NE(error_of("largest_bias", 0).find("more than 0"), std::string::npos);
     write_manifest_of(folder, nlohmann::json::array({one_case("metal"), one_case("metal")}));
@@ -196,6 +211,55 @@ TEST(Regress, BadManifestsAndNamesAreErrorsWithTheirPlace) {
     EXPECT_NE(only.err.find("did you mean 'metal'"), std::string::npos) << only.err;
     EXPECT_EQ(run_drude(folder, "regress . --seed 2").status, 2);
     EXPECT_EQ(run_drude(folder, "regress nowhere").status, 2);
+}
+
+// A reference that the run would agree with whatever the scene looks like.
+TEST(Regress, AReferenceOfTheRunsOwnSeedIsNoReference) {
+    const TemporaryFolder folder;
+    prepare(folder);
+    ASSERT_EQ(
+        run_drude(folder, "render metal.pbrt --stokes --spp 256 --seed 1 -q -o metal.exr").status,
+        0);
+    const ProgramRun same = run_drude(folder, "regress . -q");
+    EXPECT_EQ(same.status, 2) << same.out;
+    EXPECT_NE(same.out.find("was rendered with seed 1; the manifest says 2"), std::string::npos)
+        << same.out;
+    ASSERT_EQ(
+        run_drude(folder, "render metal.pbrt --stokes --spp 64 --seed 2 -q -o metal.exr").status,
+        0);
+    const ProgramRun few = run_drude(folder, "regress . -q");
+    EXPECT_EQ(few.status, 2) << few.out;
+    EXPECT_NE(few.out.find("64 samples a pixel; the manifest says 256"), std::string::npos)
+        << few.out;
+    EXPECT_EQ(run_drude(folder, "regress . -q --update --why 'as declared'").status, 0);
+}
+
+TEST(Regress, ABlackPictureIsNoPass) {
+    const TemporaryFolder folder;
+    std::string dark = scene_of(1.04);
+    const size_t light = dark.find("LightSource");
+    dark.erase(light, dark.find("Material") - light);
+    write_text(folder.file("metal.pbrt"), dark);
+    write_manifest_of(folder, nlohmann::json::array({one_case("metal")}));
+    const ProgramRun run = run_drude(folder, "regress . -q --json --update --why dark");
+    EXPECT_EQ(run.status, 1) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json["cases"][0]["status"], "weak");
+    EXPECT_TRUE(json["cases"][0]["detectable_bias"].is_null());
+    EXPECT_NE(json["cases"][0]["message"].get<std::string>().find("S0 is 0 everywhere"),
+              std::string::npos);
+}
+
+TEST(Regress, AReferenceOfAnotherSizeIsTheCasesError) {
+    const TemporaryFolder folder;
+    prepare(folder);
+    auto small = one_case("metal");
+    small["resolution"] = "4x4";
+    write_manifest_of(folder, nlohmann::json::array({small}));
+    const ProgramRun run = run_drude(folder, "regress . -q --html page.html");
+    EXPECT_EQ(run.status, 2) << run.out;
+    EXPECT_NE(run.out.find("expected pictures of one size"), std::string::npos) << run.out;
+    EXPECT_EQ(run_drude(folder, "regress . -q --update --why smaller").status, 0);
 }
 
 // References that another program wrote, or a broken disk.

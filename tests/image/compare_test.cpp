@@ -191,5 +191,66 @@ TEST(Compare, ChannelLists) {
     EXPECT_NE(message_of([&] { parse("R,,G"); }), "");
 }
 
+// Pictures of drude hold their polarisation and its variances.
+Image polarised(float sign) {
+    Image image = picture(8, 8, {"R", "G", "B"}, 0.5F);
+    for (const char* layer : {"S1", "S2", "S3"}) {
+        for (const char* colour : {".R", ".G", ".B"}) {
+            std::vector<float>& data = image.add(std::string(layer) + colour).data;
+            data.assign(data.size(), layer[1] == '1' ? 0.1F : sign * 0.1F);
+        }
+    }
+    return image;
+}
+
+TEST(Compare, PolarisationOfTheOtherSignIsADifference) {
+    Image a = polarised(1.0F), b = polarised(-1.0F);
+    EXPECT_TRUE(compare(a, a).same);
+    EXPECT_FALSE(compare(a, b).same);
+    // The figures are of R, G, B, as for a file without S1 to S3.
+    EXPECT_EQ(compare(a, b).all.rmse, 0.0);
+    EXPECT_EQ(compare(a, b).channels.size(), 12U);
+    for (Image* image : {&a, &b}) {
+        image->attributes["batches"] = 16;
+        for (const Channel& channel : std::vector<Channel>(image->channels)) {
+            std::vector<float>& variance = image->add(variance_name(channel.name)).data;
+            variance.assign(variance.size(), 1e-6F);
+        }
+    }
+    const Comparison noisy = compare(a, b);
+    EXPECT_EQ(noisy.decision, Decision::noise);
+    EXPECT_FALSE(noisy.same);
+    EXPECT_EQ(noisy.noise->worst.channel[0], 'S');
+    CompareOptions colours;
+    colours.channels = {"R", "G", "B"};
+    EXPECT_TRUE(compare(a, b, colours).same);
+    // A picture without them is compared by what both have.
+    b.channels.erase(b.channels.begin() + 3);
+    EXPECT_EQ(compare(a, b).channels.size(), 3U);
+}
+
+TEST(Compare, APassSaysWhatItCouldNotHaveSeen) {
+    Image a = picture(1, 1, {"Y", "variance.Y"}, 0.5F);
+    a.attributes["batches"] = 16;
+    const Comparison result = compare(a, a);
+    ASSERT_TRUE(result.same);
+    // A variance of 0.5 a picture: the two means of 0.5 could be some units apart.
+    EXPECT_NE(result.reason.find("a difference of the means below"), std::string::npos)
+        << result.reason;
+    EXPECT_NE(result.reason.find("% of B's) would not show"), std::string::npos) << result.reason;
+    a.find("variance.Y")->data[0] = 1e-8F;
+    EXPECT_NE(compare(a, a).reason, result.reason);
+}
+
+TEST(Compare, FiguresOfNoValueAreNoNumbers) {
+    const Image none = picture(2, 2, {"Y"}, std::numeric_limits<float>::quiet_NaN());
+    const Comparison result = compare(none, picture(2, 2, {"Y"}, 1.0F));
+    EXPECT_FALSE(result.same);
+    EXPECT_EQ(result.not_finite, 4U);
+    EXPECT_TRUE(std::isnan(result.all.rmse));
+    EXPECT_TRUE(std::isnan(result.all.psnr));
+    EXPECT_TRUE(std::isnan(result.each[0].max_error));
+}
+
 }  // namespace
 }  // namespace drude
