@@ -174,24 +174,22 @@ int show_figure(const Options& options, const Request& request, const Image& ima
     return 0;
 }
 
-// The picture as a display shows it, with the tone mapping of the same light without polarisation:
-// pictures behind different analysers compare.
+// The picture as a display shows it, with the tone mapping of the picture without the filter:
+// pictures behind different analysers compare, and none of them clips what the plain one shows.
 std::vector<float> shown(const Image& analysed, const Image& image, const Options& options,
                          const std::vector<std::string>& layers, int threads) {
-    Image unpolarised;
-    unpolarised.width = image.width;
-    unpolarised.height = image.height;
+    Image bare;
+    bare.width = image.width;
+    bare.height = image.height;
     for (const std::string& suffix : layers) {
         const bool colour = suffix == "R" || suffix == "G" || suffix == "B";
         if (!colour && layers.size() > 1) continue;
-        std::vector<float>& half = unpolarised.add(colour ? suffix : "Y").data;
-        half = image.at("S0." + suffix, options.input).data;
-        for (float& value : half) value *= 0.5F;
+        bare.add(colour ? suffix : "Y").data = image.at("S0." + suffix, options.input).data;
     }
     DurandOptions durand;
     durand.threads = threads;
-    const DurandParameters parameters = durand_parameters(
-        image.width, image.height, rgb_values(unpolarised, options.input), durand);
+    const DurandParameters parameters =
+        durand_parameters(image.width, image.height, rgb_values(bare, options.input), durand);
     return tonemap_durand(image.width, image.height, rgb_values(analysed, options.input),
                           parameters, durand);
 }
@@ -255,20 +253,24 @@ Command view_command() {
         "  dop    degree of polarisation, sqrt(S1^2 + S2^2 + S3^2)/S0\n"
         "  dolp   degree of linear polarisation, sqrt(S1^2 + S2^2)/S0\n"
         "  docp   degree of circular polarisation, |S3|/S0\n"
-        "  aolp   angle of linear polarisation, 0 to 180 degrees, counter-clockwise from the "
-        "horizontal; fades to grey where the light is less than 10 % linearly polarised\n"
+        "  aolp   angle of linear polarisation, 0 to 180 degrees, counter-clockwise from\n"
+        "         the horizontal; fades to grey where DoLP is below 0.1\n"
         "  s0     radiance\n"
-        "  s1 s2 s3  the signed component: blue below 0, orange above\n"
-        "  analyser=ANGLE  the picture behind a linear polariser that passes light along ANGLE\n"
-        "  analyser=ANGLE,retarder=FAST[:RETARDANCE]  with a retarder before it whose fast axis "
-        "is at FAST; a quarter-wave plate unless RETARDANCE says other than 90 degrees. "
-        "analyser=0,retarder=-45 passes S3 > 0 and stops S3 < 0.\n\n"
+        "  s1, s2, s3\n"
+        "         the signed component: blue below 0, orange above\n"
+        "  analyser=ANGLE\n"
+        "         the picture behind a linear polariser that passes light along ANGLE\n"
+        "  analyser=ANGLE,retarder=FAST[:RETARDANCE]\n"
+        "         with a retarder before it whose fast axis is at FAST; a quarter-wave\n"
+        "         plate unless RETARDANCE says other than 90 degrees\n\n"
+        "The analyser analyser=0,retarder=-45 passes light of S3 > 0 whole and none of S3 < 0.\n\n"
         "Grey is where there is nothing to show: no light, or no direction. The scale of s0 to s3 "
         "reaches what 99.5 % of the pixels stay within, that of the degrees 1; --range sets "
         "another, so that pictures compare. Degrees of Y can exceed 1 where colours are outside "
         "Rec.709.\n\n"
-        "Behind an analyser the PNG is tone-mapped as the same light unpolarised would be, so that "
-        "pictures at different angles compare; an output that ends in .exr gets the linear "
+        "Behind an analyser the PNG is tone-mapped like the picture without it, so that pictures "
+        "at "
+        "different angles compare; an output that ends in .exr gets the linear "
         "layers instead, R, G, B and S0 to S3 of every layer. 'passed' in the JSON is the part of "
         "S0 that comes through.\n\n"
         "Stokes layers of other renderers are read as they are (Mitsuba's S0.R, the spectral "

@@ -22,7 +22,7 @@ double value_of(const Stokes<double>& v, PolarisationView view) {
         case PolarisationView::docp:
             return std::abs(v[3]) / v[0];
         case PolarisationView::aolp: {
-            if (p == 0.0) return std::numeric_limits<double>::quiet_NaN();
+            if (!(p > 0.0)) return std::numeric_limits<double>::quiet_NaN();
             const double degrees = 0.5 * std::atan2(v[2], v[1]) * 180.0 / std::numbers::pi;
             // A hair below 0 becomes 180 by rounding, which is 0.
             const double turned = degrees < 0.0 ? degrees + 180.0 : degrees;
