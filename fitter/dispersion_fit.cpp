@@ -22,6 +22,7 @@ namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t starts_refined = 6;
+constexpr int most_spline_intervals = 60;  // as DispersionModel takes them
 
 struct Solution {
     std::vector<double> parameters;
@@ -33,6 +34,7 @@ struct Setup {
     const std::vector<WavelengthData>& groups;
     const std::vector<FittedPoint>& points;  // point by point
     Estimator estimator;
+    const std::vector<double>& start;
     bool fit_offset, unweighted;
     int threads;
 };
@@ -140,6 +142,7 @@ DispersionFit make_fit(const DispersionModel& model, const Setup& setup, const S
         analyse_jacobian(jacobian, static_cast<int>(rows), static_cast<int>(columns));
     DispersionFit fit;
     fit.name = model.name();
+    fit.values = solution.parameters;
     fit.data = static_cast<int>(rows);
     fit.condition = known.condition;
     fit.correlation = known.correlation;
@@ -186,7 +189,9 @@ DispersionFit fit_one(const std::string& name, const Setup& setup) {
     if (2 * targets.size() < model.count() || 2 * targets.size() < setup.points.size()) {
         targets.clear();
     }
-    const auto starts = search_dispersion(model, targets, starts_refined, setup.threads);
+    const auto starts = setup.start.size() == model.count()
+                            ? std::vector<std::vector<double>>{setup.start}
+                            : search_dispersion(model, targets, starts_refined, setup.threads);
     std::vector<Solution> solutions(starts.size());
     parallel_for(starts.size(), setup.threads,
                  [&](size_t i) { solutions[i] = refine(model, setup, starts[i]); });
@@ -195,9 +200,9 @@ DispersionFit fit_one(const std::string& name, const Setup& setup) {
                          [](const Solution& a, const Solution& b) { return a.chi2 < b.chi2; });
     if (best == solutions.end() || !std::isfinite(best->chi2)) {
         throw Error(Cause::answer_is_no,
-                    fmt::format("no fit: the dispersion '{}' explains the data from none of {} "
-                                "starts without absorbing less than nothing somewhere",
-                                name, starts.size()));
+                    fmt::format("no fit: from none of {} starts does the dispersion '{}' end where "
+                                "the surface reflects and im eps >= 0 at every wavelength",
+                                starts.size(), name));
     }
     return make_fit(model, setup, *best);
 }
@@ -217,8 +222,11 @@ DispersionFit fit_smallest(const std::vector<std::string>& names, const Setup& s
             rung.parameters = parameters;
             rung.chi2_reduced = fit.chi2 / (fit.data - parameters);
             rung.bic = bayesian_criterion(fit.chi2, fit.data, parameters, setup.unweighted);
-            rung.taken = lowest - rung.bic > ladder_bic_gain;
-            if (rung.taken) {
+            rung.taken = fit.data > parameters && lowest - rung.bic > ladder_bic_gain;
+            if (fit.data <= parameters) {
+                rung.chi2_reduced = rung.bic = not_known;
+                rung.objection = "it has as many parameters as data";
+            } else if (rung.taken) {
                 lowest = rung.bic;
                 best = std::move(fit);
             } else {
@@ -231,17 +239,32 @@ DispersionFit fit_smallest(const std::vector<std::string>& names, const Setup& s
         }
         ladder.push_back(std::move(rung));
     }
-    if (best.points.empty()) throw Error(Cause::answer_is_no, ladder.front().objection);
+    if (best.points.empty()) {
+        throw Error(Cause::answer_is_no, fmt::format("no fit with {}: {}", ladder.front().model,
+                                                     ladder.front().objection));
+    }
     best.ladder = std::move(ladder);
     return best;
 }
 
 std::vector<std::string> spline_names(const std::vector<WavelengthData>& groups) {
+    if (groups.size() < 2) {
+        throw Error(Cause::answer_is_no,
+                    "no fit: a spline over the wavelengths takes several, found one");
+    }
     const double first = photon_energy(groups.back().wavelength_nm);
     const double last = photon_energy(groups.front().wavelength_nm);
     std::vector<std::string> names;
-    if (groups.size() < 2) return {"spline:1"};
     int intervals = std::max(4, KramersKronigSpline::fewest_intervals(first, last));
+    if (intervals > most_spline_intervals) {
+        throw Error(
+            Cause::answer_is_no,
+            fmt::format(
+                "no fit: a spline from {:g} to {:g} nm would take {} intervals, expected at "
+                "most {}: its knots must stay above 0 eV (--range narrows the data)",
+                groups.front().wavelength_nm, groups.back().wavelength_nm, intervals,
+                most_spline_intervals));
+    }
     for (; intervals <= 48 && intervals + 6 < 2 * static_cast<int>(groups.size());
          intervals += std::max(2, intervals / 3)) {
         names.push_back(fmt::format("spline:{}", intervals));
@@ -253,12 +276,12 @@ std::vector<std::string> spline_names(const std::vector<WavelengthData>& groups)
 }  // namespace
 
 DispersionFit fit_dispersion(const std::vector<WavelengthData>& groups, Estimator estimator,
-                             const std::string& name, bool fit_offset, bool unweighted,
-                             int threads) {
+                             const std::string& name, const std::vector<double>& start,
+                             bool fit_offset, bool unweighted, int threads) {
     std::vector<FittedPoint> points(groups.size());
     parallel_for(groups.size(), threads,
                  [&](size_t i) { points[i] = fit_point(groups[i], estimator); });
-    const Setup setup{groups, points, estimator, fit_offset, unweighted, threads};
+    const Setup setup{groups, points, estimator, start, fit_offset, unweighted, threads};
     if (name == "compact") return fit_smallest({"drude", "drude+cp", "drude+2cp"}, setup);
     if (name == "spline") return fit_smallest(spline_names(groups), setup);
     return fit_one(name, setup);

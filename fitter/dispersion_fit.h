@@ -18,6 +18,7 @@ struct DispersionFit {
     double condition = 0;
     double chi2 = 0;
     int data = 0;
+    std::vector<double> values;      // of all parameters of the formula, determined or not
     std::vector<LadderRung> ladder;  // of "compact" and "spline": the formulas that were tried
 };
 
@@ -25,7 +26,8 @@ struct DispersionFit {
 // or "spline", with as many intervals, that the Bayesian information criterion asks for (a larger
 // formula is taken where it falls by more than ladder_bic_gain). `estimator`: psi_delta or rho2.
 // `unweighted`: the criterion for weights that say nothing of the noise. With `fit_offset` an error
-// in the angles of incidence that all share is one more parameter.
+// in the angles of incidence that all share is one more parameter. `start`: parameters of that
+// formula to start from instead; empty for the search.
 //
 // Starts are found without literature: random nonlinear parameters, linear ones by least squares,
 // both refined on the permittivities of the point by point fit where there is one; the best are
@@ -34,7 +36,7 @@ struct DispersionFit {
 // Throws Error (user) for an unknown name, Error (answer_is_no) where nothing converges or there
 // are fewer data than parameters.
 DispersionFit fit_dispersion(const std::vector<WavelengthData>& groups, Estimator estimator,
-                             const std::string& name, bool fit_offset, bool unweighted,
-                             int threads);
+                             const std::string& name, const std::vector<double>& start,
+                             bool fit_offset, bool unweighted, int threads);
 
 }  // namespace drude

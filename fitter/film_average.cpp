@@ -34,7 +34,7 @@ void set_bands(const FilmModel& film, double bandwidth_nm, FilmProblem* problem)
         // d phase / d lambda = phase / lambda, a fifth more by dispersion.
         const double phase = 4 * pi * centre.material.n * film.largest_thickness_nm * 1.2 * sigma /
                              (centre.wavelength_nm * centre.wavelength_nm);
-        const GaussianNodes nodes = gaussian_nodes(std::min(phase, largest_phase_spread));
+        const GaussianNodes nodes = gaussian_nodes(phase);
         band.clear();
         for (size_t i = 0; i < nodes.x.size(); ++i) {
             const double nm = centre.wavelength_nm + sigma * nodes.x[i];

@@ -31,9 +31,13 @@ void set_common(const FilmSolution& solution, const FreeFilmParameters& free,
         FittedParameter parameter;
         parameter.name = info.name;
         parameter.unit = info.unit;
-        parameter.identifiable = known.identifiable[column];
-        parameter.value = parameter.identifiable ? solution.values[j] * info.scale : not_known;
+        // Beyond its range a standard deviation says that nothing is known: what rounding leaves of
+        // a vanishing derivative still has a rank.
         parameter.sigma = known.sigma[column] * info.scale * sigma_scale;
+        parameter.identifiable =
+            known.identifiable[column] && !(known.sigma[column] > range.upper[j] - range.lower[j]);
+        if (!parameter.identifiable) parameter.sigma = not_known;
+        parameter.value = parameter.identifiable ? solution.values[j] * info.scale : not_known;
         const double margin = 1e-9 * (range.upper[j] - range.lower[j]);
         parameter.at_bound = solution.values[j] <= range.lower[j] + margin ||
                              solution.values[j] >= range.upper[j] - margin;
@@ -166,6 +170,12 @@ std::vector<FilmSolution> solve_all(const FilmProblem& problem,
                                     const std::vector<FilmValues>& starts,
                                     const FreeFilmParameters& free, const FitOptions& options) {
     const FilmRange range = film_range(problem, options);
+    if (options.film.spread_nm.value > range.upper[3]) {
+        user_error(
+            "found a thickness spread of {} nm, expected at most {:.4g}: beyond, no fringe of the "
+            "measured wavelengths is left",
+            options.film.spread_nm.value, range.upper[3]);
+    }
     std::vector<FilmSolution> solutions(starts.size());
     parallel_for(starts.size(), options.threads,
                  [&](size_t i) { solutions[i] = solve_film(problem, starts[i], free, range); });

@@ -293,9 +293,10 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
     }
     if (!options.dispersion.empty()) {
         DispersionFit fit =
-            fit_dispersion(groups, estimator, options.dispersion, options.fit_angle_offset,
-                           options.unweighted, options.threads);
+            fit_dispersion(groups, estimator, options.dispersion, options.dispersion_start,
+                           options.fit_angle_offset, options.unweighted, options.threads);
         result.dispersion = fit.name;
+        result.dispersion_parameters = std::move(fit.values);
         result.points = std::move(fit.points);
         result.parameters = static_cast<int>(fit.parameters.size());
         result.common = std::move(fit.parameters);
@@ -324,7 +325,21 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
         result.data += point.data;
         result.parameters += 2;
     }
-    if (result.data == 0) {
+    if (!options.dispersion.empty() && !options.unweighted) {
+        if (hold_nothing(groups, estimator)) {
+            throw Error(Cause::answer_is_no,
+                        "no fit: within their noise the data are Psi = 45 and Delta = 180 degrees, "
+                        "as of every surface near normal incidence: they hold nothing of n and k");
+        }
+        for (FittedPoint& point : result.points) refuse_if_vague(&point);
+    }
+    if (options.unweighted && result.dof() > 0) {
+        scale_sigmas(&result);
+        for (FittedPoint& point : result.points) refuse_if_vague(&point);
+    }
+    const bool any = std::any_of(result.points.begin(), result.points.end(),
+                                 [](const FittedPoint& point) { return point.identifiable; });
+    if (!any) {
         throw Error(Cause::answer_is_no,
                     fmt::format("{}: no fit: at none of the {} wavelengths do the data determine n "
                                 "and k ({})",
@@ -335,7 +350,6 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
         result.layers.push_back(
             roughness_layer(constants_of(result.points), options.roughness_nm.value));
     }
-    if (options.unweighted && result.dof() > 0) scale_sigmas(&result);
     warn_about_result(&result, options.unweighted);
     return result;
 }

@@ -36,7 +36,7 @@ struct FilmModel {
     std::optional<double> porosity;  // volume fraction of the pores, in [0, 0.95]; empty: fitted
     double largest_thickness_nm = 10000;  // the search ends here; in [1, 1e5]
     // Standard deviation of the thickness over the beam, in nm, at least 0: it takes contrast from
-    // the fringes and depolarises.
+    // the fringes and depolarises. A known one at most largest_spread() (film_average.h).
     KnownOrFitted spread_nm;
     // Of the spectrometer's slit, full width at half maximum of a Gaussian, in nm; in [0, 50].
     double bandwidth_nm = 0;
@@ -62,6 +62,9 @@ struct FitOptions {
     // What n and k of the models bulk and overlayer follow over the wavelengths: "" for no formula,
     // every wavelength by itself; otherwise what fit_dispersion() takes.
     std::string dispersion;
+    // Where its least squares start, instead of the search: FitResult::dispersion_parameters of an
+    // earlier fit of the same formula. Empty: the search.
+    std::vector<double> dispersion_start;
     // A common error of the angles of incidence as one more parameter; takes three angles or more.
     bool fit_angle_offset = false;
     std::string lobe;  // refused: Psi and Delta hold nothing about roughness

@@ -50,6 +50,7 @@ struct FitResult {
     std::string model;      // "bulk", "overlayer", "film"
     // The formula that n and k of `points` follow, its parameters in `common`; "" for none.
     std::string dispersion;
+    std::vector<double> dispersion_parameters;  // all of them, whether they are determined or not
     // Ascending in wavelength: of the surface ("bulk"), of what lies below the layers
     // ("overlayer"), of the film itself ("film").
     std::vector<FittedPoint> points;

@@ -29,12 +29,12 @@ bool Identifiability::all() const {
 
 double Identifiability::sigma_of(const std::vector<double>& gradient) const {
     for (const std::vector<double>& direction : null_directions) {
-        double along = 0, size = 0;
+        double along = 0, square = 0;
         for (size_t j = 0; j < gradient.size(); ++j) {
             along += gradient[j] * direction[j];
-            size += std::abs(gradient[j] * direction[j]);
+            square += gradient[j] * scale[j] * gradient[j] * scale[j];
         }
-        if (std::abs(along) > null_component * size) {
+        if (std::abs(along) > null_component * std::sqrt(square)) {
             return std::numeric_limits<double>::quiet_NaN();
         }
     }
@@ -67,6 +67,7 @@ Identifiability analyse_jacobian(const std::vector<double>& jacobian, int rows, 
         const double length = J.col(j).norm();
         scale(j) = length > 0 ? 1 / length : 1;
     }
+    result.scale.assign(scale.data(), scale.data() + columns);
     const Eigen::MatrixXd scaled = J * scale.asDiagonal();
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeFullV);
     const Eigen::VectorXd& values = svd.singularValues();

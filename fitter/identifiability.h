@@ -18,8 +18,10 @@ struct Identifiability {
     double condition = 0;  // largest over smallest singular value of the Jacobian; infinite if 0
     // Row-major, parameters x parameters, over the directions that the data determine alone.
     std::vector<double> covariance;
-    // Changes of the parameters that change no datum, one after the other.
+    // Changes of the parameters that change no datum, one after the other; each is a unit vector of
+    // parameters in units of `scale`, which is what makes a column of the Jacobian 1 long.
     std::vector<std::vector<double>> null_directions;
+    std::vector<double> scale;
 
     bool all() const;
     // The standard deviation of a quantity that changes by gradient[j] with parameter j; NaN where

@@ -90,6 +90,9 @@ Measurement model_curve(const FitResult& fit, const Measurement& measurement) {
 
 FitOptions options_taken(const FitOptions& options, const FitResult& fit) {
     FitOptions taken = options;
+    // The same formula, from where the fit ended: another order of its terms is the same curve.
+    taken.dispersion = fit.dispersion;
+    taken.dispersion_start = fit.dispersion_parameters;
     if (options.model != "auto") return taken;
     taken.model = fit.model;
     if (fit.model != "overlayer") taken.overlayers.clear();
@@ -98,9 +101,11 @@ FitOptions options_taken(const FitOptions& options, const FitResult& fit) {
         return std::any_of(fit.common.begin(), fit.common.end(),
                            [&](const FittedParameter& p) { return p.name == name; });
     };
-    taken.dispersion = fit.dispersion;
     taken.fit_angle_offset = has("angle offset");
-    taken.film.spread_nm.fitted = has("thickness spread");
+    taken.film.spread_nm = has("thickness spread") ? KnownOrFitted{0, true}
+                                                   : KnownOrFitted{fit.thickness_spread_nm, false};
+    taken.film.bandwidth_nm = fit.bandwidth_nm;
+    if (fit.model != "film") taken.roughness_nm.fitted = false;
     return taken;
 }
 

@@ -1,5 +1,6 @@
 #include "fitter/model_ladder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -19,11 +20,16 @@ std::string objection(const FitResult& now, const FitResult& next, bool unweight
         return fmt::format("it explains {} data, fewer than {}", next.data, now.data);
     }
     if (!(next.dof() > 0)) return "it has as many parameters as data";
+    // A bound that the smaller model meets as well does not tell against the larger.
+    const auto at_bound_before = [&](const std::string& name) {
+        return std::any_of(now.common.begin(), now.common.end(),
+                           [&](const FittedParameter& p) { return p.name == name && p.at_bound; });
+    };
     for (const FittedParameter& parameter : next.common) {
         if (!parameter.identifiable) {
             return fmt::format("the data do not determine its {}", parameter.name);
         }
-        if (parameter.at_bound) {
+        if (parameter.at_bound && !at_bound_before(parameter.name)) {
             return fmt::format("its {} ends at a bound, {:.4g}", parameter.name, parameter.value);
         }
     }
@@ -82,7 +88,11 @@ class Ladder {
 
     FitResult result() {
         if (!best_) throw *first_refusal_;
-        best_->ladder = rungs_;
+        // What a dispersion chose its size from comes before the models.
+        std::vector<LadderRung> all = std::move(best_->ladder);
+        for (LadderRung& rung : all) rung.model = "n, k: " + rung.model;
+        all.insert(all.end(), rungs_.begin(), rungs_.end());
+        best_->ladder = std::move(all);
         return std::move(*best_);
     }
 
@@ -129,7 +139,7 @@ FitResult fit_ladder(const Measurement& measurement, const FitOptions& options) 
         film.model = "film";
         film.dispersion.clear();
         film.film = options.film;
-        film.film.spread_nm = {};
+        if (film.film.spread_nm.fitted) film.film.spread_nm = {};
         film.roughness_nm = options.roughness_nm;
         film_fits = ladder.climb("film", film);
     }
@@ -138,7 +148,7 @@ FitResult fit_ladder(const Measurement& measurement, const FitOptions& options) 
         tilted.fit_angle_offset = true;
         ladder.climb(tilted.model + " + angle offset", tilted);
     }
-    if (film_fits) {
+    if (film_fits && !film.film.spread_nm.given()) {
         // Also where an even film was not taken: washed-out fringes are no even film's.
         const bool taken = ladder.any() && ladder.options_taken().model == "film";
         FitOptions uneven = taken ? ladder.options_taken() : film;

@@ -252,6 +252,21 @@ void refuse_if_unknown(const WavelengthData& data, Estimator estimator, FittedPo
             "within their noise the data are Psi = 45 and Delta = 180 degrees, as of every "
             "surface near normal incidence: they hold nothing of n and k");
     }
+    refuse_if_vague(point);
+}
+
+bool hold_nothing(const std::vector<WavelengthData>& groups, Estimator estimator) {
+    double chi2 = 0;
+    int data = 0;
+    for (const WavelengthData& group : groups) {
+        chi2 += chi2_of_normal_incidence(group);
+        data += PointResiduals{&group, estimator}.count();
+    }
+    return estimator != Estimator::rho2 && !is_poor(chi2, data);
+}
+
+void refuse_if_vague(FittedPoint* point) {
+    if (!point->identifiable) return;
     const double length = std::hypot(point->n, point->k);
     if (std::hypot(point->sigma_n, point->sigma_k) <= not_known_at_all * length) return;
     refuse(point, fmt::format("the data do not determine n and k: their standard deviations would "

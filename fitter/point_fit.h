@@ -1,6 +1,8 @@
 // n and k at one wavelength.
 #pragma once
 
+#include <vector>
+
 #include "fitter/fit_result.h"
 #include "fitter/point_data.h"
 
@@ -30,5 +32,10 @@ FittedPoint fit_point_from(const WavelengthData& data, Estimator estimator, Inde
 // for standard deviations that are those of the data.
 inline constexpr double not_known_at_all = 100;
 void refuse_if_unknown(const WavelengthData& data, Estimator estimator, FittedPoint* point);
+
+// The two reasons by themselves. Whether Psi = 45 and Delta = 180 degrees explain all of the data;
+// always false for tan^2 Psi alone.
+bool hold_nothing(const std::vector<WavelengthData>& groups, Estimator estimator);
+void refuse_if_vague(FittedPoint* point);
 
 }  // namespace drude

@@ -117,6 +117,9 @@ class Reweighting {
   private:
     void fit() {
         fit_ = fit_measurement(measurement_, plain_);
+        // The next round goes on from here: a search of its own may number the terms otherwise.
+        plain_.dispersion = fit_.dispersion;
+        plain_.dispersion_start = fit_.dispersion_parameters;
         residuals_ = row_residuals(fit_, measurement_, plain_);
     }
 

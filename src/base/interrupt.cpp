@@ -24,6 +24,12 @@ void catch_interrupts() {
     }
 }
 
+void let_interrupts_end() {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+    }
+}
+
 int interrupted() {
     return caught;
 }

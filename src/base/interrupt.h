@@ -7,6 +7,9 @@ namespace drude {
 // the process was started to ignore (nohup, a background job of a script) stays ignored.
 void catch_interrupts();
 
+// Takes them off again, for work that has nothing to save: a signal ends the process at once.
+void let_interrupts_end();
+
 // The signal that arrived (SIGINT, SIGTERM), or 0.
 int interrupted();
 

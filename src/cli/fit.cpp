@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/interrupt.h"
 #include "base/numbers.h"
 #include "base/sha256.h"
 #include "cli/command_list.h"
@@ -157,6 +158,32 @@ void check_combination(const FitCommandOptions& options, const OptionSet& given)
         user_error("found --constants without --lobe-scan: there is nothing to fit");
     }
     check_fit_statistics(options.statistics, given, !options.measurement.empty());
+    if (options.measurement.empty()) {
+        for (const char* option :
+             {"--estimator", "--model", "--dispersion", "--overlayer", "--substrate",
+              "--film-material", "--porosity", "--max-thickness", "--spread", "--bandwidth",
+              "--roughness", "--angle-offset", "--range", "--unweighted", "--format"}) {
+            if (given.given(option)) {
+                user_error("found {}, which belongs to a fit of n and k to a measurement", option);
+            }
+        }
+    }
+    if (options.model == "auto" && options.substrate.empty()) {
+        for (const char* option :
+             {"--film-material", "--porosity", "--max-thickness", "--spread", "--bandwidth"}) {
+            if (given.given(option)) {
+                user_error(
+                    "found {}, which belongs to a film: --model auto tries one where "
+                    "--substrate is given",
+                    option);
+            }
+        }
+        if (options.roughness == "fit") {
+            user_error(
+                "--roughness fit: a roughness is fitted on a film only, which --model auto "
+                "tries where --substrate is given");
+        }
+    }
     if (options.model == "film" || options.model == "auto") return;
     for (const char* option :
          {"--film-material", "--porosity", "--max-thickness", "--spread", "--bandwidth"}) {
@@ -193,6 +220,8 @@ int run_lobe_fit(const FitCommandOptions& options, const CommonOptions& common) 
 }
 
 int run_fit(const FitCommandOptions& options, const OptionSet& given, const CommonOptions& common) {
+    // Everything is written at the end and at once: there is nothing to save on the way.
+    let_interrupts_end();
     check_paper_options(options.paper, given);
     if (options.paper.wanted) {
         return run_like_the_paper(options.paper, options.measurement, options.format, common);
@@ -284,7 +313,9 @@ Command fit_command() {
         "model count less (huber, cauchy, tukey; constants 1.345, 2.385 and 4.685 standard "
         "deviations); huber withstands a few bad rows, tukey grosser ones. --profile finds where "
         "chi-square, smallest over all other parameters, rises by 1 and by 3.84 on either side of "
-        "every parameter, or that it never does (open). --bootstrap draws measurements from the "
+        "every parameter, or that it never does (open); not with "
+        "--dispersion, --robust or the inversion, which the bootstrap takes. --bootstrap draws "
+        "measurements from the "
         "fitted model and refits them: scatter and quantiles of every parameter, the same for any "
         "number of threads. --plots writes psi, delta, residuals, n and k as SVG, --html all of it "
         "as one page.\n\n"

@@ -217,9 +217,12 @@ void check_paper_options(const PaperCommandOptions& options, const OptionSet& gi
     }
     // The procedure has nothing to choose but where it starts.
     for (const char* option :
-         {"--estimator", "--model", "--overlayer", "--angle-offset", "--range", "--unweighted",
-          "--lobe-scan", "--constants", "--lobe", "--substrate", "--film-material", "--porosity",
-          "--max-thickness", "--name", "--output"}) {
+         {"--estimator",     "--model",     "--overlayer",     "--angle-offset", "--range",
+          "--unweighted",    "--lobe-scan", "--constants",     "--lobe",         "--substrate",
+          "--film-material", "--porosity",  "--max-thickness", "--dispersion",   "--spread",
+          "--bandwidth",     "--roughness", "--robust",        "--literature",   "--profile",
+          "--profile-at",    "--bootstrap", "--seed",          "--plots",        "--html",
+          "--name",          "--output"}) {
         if (given.given(option)) {
             user_error(
                 "found {}, which --like-the-paper has no use for: it fits tan^2 Psi of a bare "

@@ -34,7 +34,7 @@ void check_fit_statistics(const FitStatisticsOptions& options, const OptionSet& 
     if (given.given("--seed") && !given.given("--bootstrap")) {
         user_error("found --seed without --bootstrap: nothing else is drawn");
     }
-    if (given.given("--bootstrap") && options.bootstrap < 20) {
+    if (given.given("--bootstrap") && (options.bootstrap < 20 || options.bootstrap > 1'000'000)) {
         user_error("--bootstrap: found {} draws, expected 20 to 1000000", options.bootstrap);
     }
 }

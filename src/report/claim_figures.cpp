@@ -74,7 +74,7 @@ EnvelopeShare envelope_share(const StudyMetal& metal) {
             }
         }
         result.sets = std::max(result.sets, sets);
-        if (sets == 0) continue;
+        if (sets < 2) continue;
         ++tested;
         const double margin_n = sigmas ? 3 * fitted.sigma_n[i] : 0;
         const double margin_k = sigmas ? 3 * fitted.sigma_k[i] : 0;

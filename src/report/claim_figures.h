@@ -19,10 +19,11 @@ double ratio_deviation(const Measurement& measurement, const OpticalConstants& s
 
 // The share of the fitted wavelengths at which both n and k lie between the least and the greatest
 // of the published sets that cover them, the sample's own left out, widened by three standard
-// deviations of the fit. NaN where there are no such sets.
+// deviations of the fit. Wavelengths with fewer than two such sets, which span nothing, do not
+// count; NaN where no other is left.
 struct EnvelopeShare {
     double share = 0;
-    int sets = 0;
+    int sets = 0;  // the most that cover one wavelength
 };
 EnvelopeShare envelope_share(const StudyMetal& metal);
 

@@ -27,13 +27,14 @@ Claim near_the_literature(const Study& study) {
         near += deviation < 0.05;
         ratios.push_back(fmt::format("{} {}", metal.name, percent_text(deviation)));
         const EnvelopeShare envelope = envelope_share(metal);
-        if (std::isnan(envelope.share)) continue;
-        shares.push_back(fmt::format("{} {} ({} {})", metal.name, percent_text(envelope.share),
-                                     envelope.sets, envelope.sets == 1 ? "set" : "sets"));
+        shares.push_back(fmt::format(
+            "{} {} ({} {})", metal.name,
+            std::isnan(envelope.share) ? std::string("–") : percent_text(envelope.share),
+            envelope.sets, envelope.sets == 1 ? "set" : "sets"));
     }
     c.finding = fmt::format(
         "|ρ|² against the set compared with, rms: {}. Share of wavelengths at which n and k lie "
-        "within all other published sets: {}.",
+        "between the other published sets (– where fewer than two cover them): {}.",
         fmt::join(ratios, ", "), fmt::join(shares, ", "));
     c.verdict = near == study.metals.size() ? Verdict::holds
                 : near > 0                  ? Verdict::partly

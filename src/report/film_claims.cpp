@@ -92,10 +92,12 @@ std::vector<Claim> film_claims(const Study& study) {
         layer.verdict = film.bare_chi2 > 10 && explained ? Verdict::holds
                         : explained                      ? Verdict::partly
                                                          : Verdict::does_not_hold;
-        layer.why =
+        const size_t angles = film.measurement.angles().size();
+        layer.why = fmt::format(
             "Holds where the film's χ² is 1 within five times its scatter and the bare surface's "
-            "beyond 10. A fit point by point has two numbers a wavelength for twelve readings, "
-            "which six angles of a fringe pattern contradict.";
+            "beyond 10. A fit point by point has two numbers a wavelength for {} readings, which "
+            "a fringe pattern at {} angles contradicts.",
+            2 * angles, angles);
 
         const double ours = ratio_deviation(aluminium->measurement, aluminium->literature);
         const double theirs = ratio_deviation(film.measurement, published_set(film.substrate_set));
@@ -106,8 +108,8 @@ std::vector<Claim> film_claims(const Study& study) {
                         : ours < theirs                  ? Verdict::partly
                                                          : Verdict::does_not_hold;
         plain.why =
-            "Holds below 5 % and a third of the film's. The sample has no oxide at all: that a "
-            "native oxide of 3 nm hides in wrong n and k instead is not tested here.";
+            "Holds below 5 % and a third of the film's. The sample has no oxide at all: one of "
+            "3 nm is tested with the claim of section 1.";
     }
     return {swings, layer, plain, substrate_claim()};
 }

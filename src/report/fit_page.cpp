@@ -121,8 +121,9 @@ void show_ladder(const FitResult& fit, Page* page) {
     page->section("Models tried", "models");
     PageTable table;
     table.caption =
-        "A model is taken where the Bayesian information criterion falls by more than 10 and "
-        "χ²/dof moves towards 1.";
+        "A model is taken where the Bayesian information criterion falls by more than 10";
+    // A formula may be large enough without describing the data.
+    table.caption += fit.dispersion.empty() ? " and χ²/dof moves towards 1." : ".";
     table.columns = {"Model", "Parameters", "χ²/dof", "BIC", "Verdict"};
     table.numeric = {false, true, true, true, false};
     for (const LadderRung& rung : fit.ladder) {

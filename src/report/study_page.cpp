@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "fitter/paper_table.h"
 #include "report/fit_plots.h"
 #include "report/study_fit.h"
 #include "report/study_sections.h"
@@ -33,6 +36,21 @@ std::string extent(const Measurement& measurement) {
                             measurement.rows.front().sigma_psi_deg,
                             measurement.rows.front().sigma_delta_deg);
     return text;
+}
+
+// "the paper's 6 angles", "3 angles", "2 to 6 angles": of all measurements together.
+std::string angles_text(const Study& study) {
+    size_t least = std::numeric_limits<size_t>::max(), most = 0;
+    bool papers = !study.metals.empty();
+    for (const StudyMetal& metal : study.metals) {
+        const std::vector<double> angles = metal.measurement.angles();
+        least = std::min(least, angles.size());
+        most = std::max(most, angles.size());
+        papers = papers && angles == paper_angles_deg();
+    }
+    if (papers) return fmt::format("the paper's {} angles", most);
+    if (least < most) return fmt::format("{} to {} angles", least, most);
+    return fmt::format("{} {}", most, most == 1 ? "angle" : "angles");
 }
 
 // Every tenth or so of the wavelengths; the whole table is in the CSV beside the page.
@@ -114,11 +132,11 @@ void section_samples(Page& page, const Study& study) {
 
 void section_captured(Page& page, const Study& study) {
     page.section("What was captured", "captured");
-    page.paragraph(
-        "Ψ and Δ against wavelength at the paper's six angles of incidence: tan Ψ is how much p "
-        "light is attenuated against s light by the reflection, Δ how far it falls behind it. "
-        "Points are the simulated measurement, lines the fitted model. Anodised aluminium is in "
-        "figure 6 below.");
+    page.paragraph(fmt::format(
+        "Ψ and Δ against wavelength at {} of incidence: tan Ψ is how much p light is attenuated "
+        "against s light by the reflection, Δ how far it falls behind it. Points are the simulated "
+        "measurement, lines the fitted model.{}",
+        angles_text(study), study.film ? " " + study.film->name + " is in figure 6 below." : ""));
     std::vector<std::pair<std::string, std::string>> facts;
     for (const StudyMetal& m : study.metals) facts.emplace_back(m.name, extent(m.measurement));
     if (study.film) facts.emplace_back(study.film->name, extent(study.film->measurement));

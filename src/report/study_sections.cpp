@@ -98,13 +98,9 @@ void section_table_1(Page& page, const Study& study) {
         "the ratio of the Fresnel terms, then the ratio under four facet distributions with β as a "
         "third unknown. Ours is the same procedure with the study's simulated measurement; the "
         "last line of each table is the fit to Ψ and Δ together.");
-    page.note(
-        "Hatched numbers hold no information. In the mirror direction the facet distribution and "
-        "the masking multiply r_p and r_s alike and cancel in their ratio: every distribution "
-        "gives "
-        "the same n and k, and β ends where the fit was started (= start, from 0.2 as from 0.5). "
-        "Only a scan of the lobe holds β (drude fit --lobe-scan).");
-    page.markup(table_1_markup(table_1(study)));
+    const std::vector<Table1Metal> metals = table_1(study);
+    page.note(table_1_note(metals));
+    page.markup(table_1_markup(metals));
     page.code("drude fit --like-the-paper");
 }
 
@@ -113,10 +109,8 @@ void section_pictures(Page& page, const Study& study, const StudyPage& content) 
     page.paragraph(
         "Half-spheres in one environment, one seed for both of a pair, so that the difference is "
         "the metals' alone. Drag the divider, or focus it and use the arrow keys. The cursor, the "
-        "zoom (double click, Ctrl and wheel, or + and −) and the exposure are common to all five: "
-        "what is read out on one metal is read out on every other at the same place. S3 and the "
-        "difference of angles are nearly empty, as they should be: a convex metal in unpolarised "
-        "light polarises along its rim whatever its n and k.");
+        "zoom (double click, Ctrl and wheel, or + and −) and the exposure are common to all pairs: "
+        "what is read out on one metal is read out on every other at the same place.");
     PageTable table;
     table.caption =
         "Over the pixels that differ: log10 of the mean |fitted − literature| of linear R, G, B "

@@ -23,8 +23,15 @@ struct Table1Metal {
 // where it has one.
 std::vector<Table1Metal> table_1(const Study& study);
 
-// HTML: one table a metal, printed and ours side by side; what is no information is set apart and
-// says why.
+// A number is hatched where |rho|^2 changes by less than the first a unit of beta, or where the
+// fit's standard deviation of n or k is more than the second, as a share of the value.
+constexpr double least_column_beta = 1e-9, largest_relative_sigma = 0.2;
+
+// What hatching means, and what these fits say of beta: plain text, every figure taken from them.
+std::string table_1_note(const std::vector<Table1Metal>& metals);
+
+// HTML: one table a metal, printed and ours side by side. Hatched is what holds no information: of
+// ours by the fit to the study's measurement, of the printed by the fit to the printed pair.
 std::string table_1_markup(const std::vector<Table1Metal>& metals);
 
 }  // namespace drude

@@ -121,28 +121,37 @@ def tools(browser, metals):
     browser.settle()
     check(brightness(browser, over) == dark, "Reset brings the picture back to the byte")
 
-    before = fingerprint(browser, over)
-    browser.evaluate("(() => {const c = document.getElementById('curve'); c.value = 'reinhard';"
-                     "c.dispatchEvent(new Event('change'));})()")
+    choose = lambda name, value: browser.evaluate(
+        f"(() => {{const c = document.getElementById('{name}'); c.value = '{value}';"
+        "c.dispatchEvent(new Event('change'));})()")
+    first_pair = f"#pair-{metals[0]}"
+    state = lambda: (
+        fingerprint(browser, over), fingerprint(browser, f"{first_pair} .map canvas"),
+        browser.evaluate(f"document.querySelector('{first_pair} .unit').textContent"),
+        browser.evaluate("document.getElementById('curve').value"),
+        browser.evaluate("document.getElementById('difference').value"))
+    first = state()
+    choose("curve", "reinhard")
+    choose("difference", "dolp")
     browser.settle()
-    check(fingerprint(browser, over) != before, "the tone curve changes the picture")
-    browser.evaluate("(() => {const c = document.getElementById('curve'); c.value = 'srgb';"
-                     "c.dispatchEvent(new Event('change'));})()")
+    other = state()
+    check(all(a != b for a, b in zip(first, other)), "tone curve and difference change both panes")
+    browser.evaluate("document.getElementById('zoom-reset').click()")
+    browser.settle()
+    check(state() == first, "Reset brings tone curve and difference back")
 
     kinds = browser.evaluate("[...document.getElementById('difference').options]"
                              ".map((o) => o.value)")
     check(kinds == ["log", "signed", "spectral", "dolp", "aolp"], f"differences: {kinds}")
     seen = set()
     for kind in kinds:
-        browser.evaluate(f"(() => {{const c = document.getElementById('difference'); c.value = "
-                         f"'{kind}'; c.dispatchEvent(new Event('change'));}})()")
+        choose("difference", kind)
         browser.settle()
         seen.add((fingerprint(browser, f"#pair-{metals[0]} .map canvas"),
                   browser.evaluate(f"document.querySelector('#pair-{metals[0]} .unit')"
                                    ".textContent")))
     check(len(seen) == len(kinds), "each difference is a picture and a legend of its own")
-    browser.evaluate("(() => {const c = document.getElementById('difference'); c.value = 'log';"
-                     "c.dispatchEvent(new Event('change'));})()")
+    choose("difference", "log")
 
     prints = [fingerprint(browser, f"#pair-{m} .under") for m in metals]
     for _ in range(3):
@@ -349,15 +358,19 @@ NAMES = r"""
 
 
 def look(browser, artifacts):
-    """Screenshots at three widths, light and dark, with contrast measured in each."""
+    """Screenshots at five widths, light and dark, with contrast measured in each."""
     for scheme in ("light", "dark"):
         browser.prefer(scheme)
-        for width in (400, 900, 1600):
+        for width in (320, 400, 700, 900, 1600):
             browser.resize(width)
             browser.settle()
             browser.settle()
             wide = browser.evaluate("document.documentElement.scrollWidth")
             check(wide <= width, f"{scheme} {width}: nothing sticks out ({wide} pixels)")
+            narrow = browser.evaluate(
+                "[...document.querySelectorAll('.readout td')].filter((e) => "
+                "e.scrollWidth > e.clientWidth).map((e) => e.textContent)")
+            check(not narrow, f"{scheme} {width}: no number runs out of its cell {narrow[:3]}")
             low = browser.evaluate(CONTRAST)
             check(not low, f"{scheme} {width}: contrast {low[:4]}")
             browser.screenshot(artifacts / f"page-{scheme}-{width}.png")

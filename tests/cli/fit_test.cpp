@@ -190,6 +190,13 @@ TEST(FitCommand, FollowsADispersionFormula) {
     EXPECT_NE(film.err.find("--spread"), std::string::npos) << film.err;
     const ProgramRun rough = run_drude(folder, "fit m.csv --roughness fit");
     EXPECT_EQ(rough.status, 1);
+    for (const char* idle :
+         {"fit m.csv --like-the-paper --dispersion drude",
+          "fit m.csv --like-the-paper --html p.html", "fit m.csv --model auto --spread 20",
+          "fit m.csv --model auto --roughness fit",
+          "fit --lobe-scan s.csv --constants Cu --dispersion drude"}) {
+        EXPECT_EQ(run_drude(folder, idle).status, 2) << idle;
+    }
 }
 
 }  // namespace

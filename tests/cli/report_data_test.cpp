@@ -15,6 +15,7 @@
 #include "report/packed_layers.h"
 #include "report/paper_figures.h"
 #include "report/picture_data.h"
+#include "report/study_report.h"
 #include "report/table_1.h"
 
 namespace drude {
@@ -319,6 +320,67 @@ TEST(Table1, StandsBesideThePapers) {
     EXPECT_THROW(paper_figure(study, 5), Error);
 }
 
+// Zinc's sample is the very set that stands for the paper's zinc: its fit would start at its truth.
+TEST(Table1, StartsFromTheSetComparedWith) {
+    Study study;
+    study.metals = {metal_of("Zn-Werner-DFT", "Zn-Werner", "zinc"),
+                    metal_of("Ag-McPeak", "Ag-Ferrera-298K", "silver")};
+    const std::vector<Table1Metal> metals = table_1(study);
+    for (const Table1Metal& metal : metals) {
+        if (metal.fit.blocks.empty()) continue;
+        const StudyMetal& ours = study.metals[metal.name == "Silver"];
+        EXPECT_EQ(metal.fit.literature, ours.literature_set);
+        EXPECT_EQ(metal.fit.start_n, ours.literature.at(metal.fit.wavelength_nm).n);
+        const Index truth = published_set(ours.sample_set).at(metal.fit.wavelength_nm);
+        EXPECT_NEAR(metal.fit.blocks[0].n, truth.n, 1e-4);
+        EXPECT_GT(std::abs(metal.fit.start_n - truth.n), 1e-3);
+    }
+    EXPECT_FALSE(metals[1].fit.blocks.empty());
+    EXPECT_FALSE(metals[5].fit.blocks.empty());
+}
+
+int count(const std::string& text, const std::string& part) {
+    int found = 0;
+    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+        ++found;
+    }
+    return found;
+}
+
+// One metal of the table by itself: hatching and the note follow from its fits' own numbers.
+TEST(Table1, HatchesWhatTheFitsDoNotDetermine) {
+    Study study;
+    study.metals = {metal_of("Cu-McPeak", "Cu-Hagemann", "copper")};
+    Table1Metal copper = table_1(study)[0];
+    copper.fit.sigma_n = copper.check.fit.sigma_n = 0;
+    copper.fit.sigma_k = copper.check.fit.sigma_k = 0;
+    copper.fit.psi_delta.sigma_n = copper.fit.psi_delta.sigma_k = 0;
+    const auto hatched = [&] {
+        return count(table_1_markup({copper}), "class=\"number nothing\"");
+    };
+    EXPECT_EQ(hatched(), 8);  // beta of four distributions, the paper's and ours
+    EXPECT_NE(table_1_note({copper}).find("= start"), std::string::npos);
+    EXPECT_NE(table_1_note({copper}).find("started from 0.2 and from 0.5,"), std::string::npos);
+
+    copper.fit.sigma_n = 0.21 * copper.fit.blocks[0].n;
+    EXPECT_EQ(hatched(), 13);  // n of five blocks
+    copper.fit.sigma_n = 0.19 * copper.fit.blocks[0].n;
+    EXPECT_EQ(hatched(), 8);
+    copper.fit.psi_delta.sigma_k = copper.fit.psi_delta.k;
+    EXPECT_EQ(hatched(), 9);
+    copper.check.fit.sigma_k = 0.5 * copper.printed->blocks[0].k;
+    EXPECT_EQ(hatched(), 14);
+
+    PaperFitBlock& block = copper.fit.blocks[2];
+    block.column_beta = 0.5;
+    EXPECT_EQ(hatched(), 13);
+    EXPECT_EQ(table_1_note({copper}).find("cancel"), std::string::npos);
+    block.beta_end = {0.3, 0.3};
+    EXPECT_EQ(table_1_note({copper}).find("= start"), std::string::npos);
+    EXPECT_NE(table_1_note({copper}).find("up to 0.2 away"), std::string::npos);
+    EXPECT_NE(table_1_markup({copper}).find("0.2 → 0.3, 0.5 → 0.3"), std::string::npos);
+}
+
 TEST(Claims, FiguresOfAPerfectFit) {
     const StudyMetal gold = metal_of("Au-McPeak", "Au-McPeak", "gold");
     EXPECT_LT(ratio_deviation(gold.measurement, gold.literature), 1e-9);
@@ -355,13 +417,22 @@ TEST(Claims, TheEnvelopeLeavesTheSampleOut) {
     metal.published = {below, above};
     EXPECT_EQ(envelope_share(metal).share, 1);
     EXPECT_EQ(envelope_share(metal).sets, 2);
-    metal.published[1].name = metal.sample_set;
+    OpticalConstants lower = below;
+    lower.name = "lower";
+    metal.published = {below, lower, above};
+    metal.published[2].name = metal.sample_set;
     EXPECT_EQ(envelope_share(metal).share, 0);
+    EXPECT_EQ(envelope_share(metal).sets, 2);
     metal.fitted.sigma_n.assign(metal.fitted.n.size(), 0.004);
     metal.fitted.sigma_k = metal.fitted.sigma_n;
     EXPECT_EQ(envelope_share(metal).share, 1);  // within three standard deviations
+    metal.published.pop_back();
+    metal.published[1].name = metal.sample_set;  // one set spans nothing
+    EXPECT_TRUE(std::isnan(envelope_share(metal).share));
+    EXPECT_EQ(envelope_share(metal).sets, 1);
     metal.published.clear();
     EXPECT_TRUE(std::isnan(envelope_share(metal).share));
+    EXPECT_EQ(envelope_share(metal).sets, 0);
 }
 
 TEST(Claims, BetaCancelsInTheMirrorDirection) {
@@ -410,6 +481,34 @@ TEST(Claims, VerdictsFollowFromTheNumbers) {
         EXPECT_FALSE(c.finding.empty() && c.verdict != Verdict::not_tested) << c.id;
     }
     EXPECT_NO_THROW(paper_claims({}));
+}
+
+// Zinc has one published set beside its sample's: between one set there is nothing.
+TEST(Claims, OneSetIsNoEnvelope) {
+    Study study;
+    study.metals = {metal_of("Zn-Werner-DFT", "Zn-Werner", "zinc"),
+                    metal_of("Cu-McPeak", "Cu-Hagemann", "copper")};
+    const std::string finding = claim(paper_claims(study), "near-literature").finding;
+    EXPECT_NE(finding.find("zinc – (1 set)"), std::string::npos) << finding;
+    EXPECT_EQ(finding.find("copper –"), std::string::npos) << finding;
+}
+
+TEST(StudyPage, CountsTheAnglesItSpeaksOf) {
+    Study study;
+    study.metals = {metal_of("Cu-McPeak", "Cu-Hagemann", "copper")};
+    EXPECT_NE(study_page(study, {}).find("wavelength at 3 angles of incidence"), std::string::npos);
+    study.metals.push_back(metal_of("Ag-McPeak", "Ag-Johnson", "silver"));
+    SimulationSetup setup;
+    setup.angles_deg = paper_angles_deg();
+    setup.wavelengths_nm = {500, 600};
+    for (StudyMetal& metal : study.metals) {
+        metal.measurement = simulate_ellipsometer(find_material(metal.sample_set), setup);
+        const std::string page = study_page(study, {});
+        const bool both = &metal == &study.metals.back();
+        const char* text = both ? "at the paper&#39;s 6 angles of" : "at 3 to 6 angles of";
+        EXPECT_NE(page.find(text), std::string::npos) << text;
+        EXPECT_EQ(page.find("figure 6 below"), std::string::npos);  // there is no film
+    }
 }
 
 }  // namespace

@@ -205,6 +205,29 @@ TEST(FilmAverage, KnownRoughnessOnAMetalIsTakenOffItsConstants) {
     EXPECT_EQ(rough.layers[0].thickness_nm, 5);
 }
 
+TEST(FilmAverage, WhatAutoTookIsRefittedAsItWas) {
+    Sample sample;
+    sample.spread_nm = 20;
+    FitOptions options = film_options();
+    options.model = "auto";
+    options.film.spread_nm = {20, false};
+    const FitResult fit = fit_measurement(measured(sample, 9, 6), options);
+    EXPECT_EQ(fit.model, "film");
+    EXPECT_EQ(fit.thickness_spread_nm, 20);
+    EXPECT_NEAR(fit.chi2_reduced(), 1, 0.3);
+    const FitOptions again = options_taken(options, fit);
+    EXPECT_EQ(again.film.spread_nm.value, 20);
+    // A bulk that was taken keeps nothing of the film's options.
+    SimulationSetup setup;
+    setup.wavelengths_nm = parse_grid("400:700:20", "wavelengths");
+    setup.angles_deg = {60, 70};
+    const Measurement bare = simulate_ellipsometer(find_material("Cu-McPeak"), setup);
+    options.roughness_nm = {0, true};
+    const FitResult bulk = fit_measurement(bare, options);
+    ASSERT_EQ(bulk.model, "bulk");
+    EXPECT_NO_THROW(fit_measurement(bare, options_taken(options, bulk)));
+}
+
 TEST(FilmAverage, BadOptionsAreRefused) {
     const Measurement data = measured({}, 1, 20);
     FitOptions options;
@@ -220,6 +243,9 @@ TEST(FilmAverage, BadOptionsAreRefused) {
     EXPECT_THROW(fit_measurement(data, options), Error);
     options = film_options();
     options.film.spread_nm = {std::nan(""), false};
+    EXPECT_THROW(fit_measurement(data, options), Error);
+    // No fringe is left; nodes for it would alias.
+    options.film.spread_nm = {300, false};
     EXPECT_THROW(fit_measurement(data, options), Error);
 }
 

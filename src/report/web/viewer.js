@@ -150,11 +150,13 @@ function watchTools() {
   byId('zoom-in').addEventListener('click', () => setZoom(view.zoom * 1.5));
   byId('zoom-out').addEventListener('click', () => setZoom(view.zoom / 1.5));
   byId('zoom-reset').addEventListener('click', () => {
-    slider.value = view.exposure = 0;
+    Object.assign(view, atFirst);
+    for (const name of ['exposure', 'curve', 'difference']) byId(name).value = view[name];
     say();
     paintAll();
-    setSplit(50);
-    setZoom(1);
+    paintDifferences();
+    setSplit(view.split);
+    settle();
   });
   say();
 }
@@ -190,7 +192,7 @@ async function start() {
   chooseReference();
   paintAll();
   paintDifferences();
-  setSplit(50);
+  setSplit(view.split);
   settle();
   setCursor(best[1], best[2]);
   new ResizeObserver(refresh).observe(document.querySelector('main'));

@@ -1,7 +1,7 @@
 // The pairs of a study, second part: what is shown, and how numbers become pictures.
 // ---- state ------------------------------------------------------------------------------------
-const view = {zoom: 1, x: 0.5, y: 0.5, split: 50, exposure: 0, curve: 'srgb', difference: 'log',
-  cursor: null};
+const atFirst = {zoom: 1, x: 0.5, y: 0.5, split: 50, exposure: 0, curve: 'srgb', difference: 'log'};
+const view = {...atFirst, cursor: null};
 let colour = null, spectral = null;
 const screens = [];  // one a figure
 
