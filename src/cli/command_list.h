@@ -12,6 +12,7 @@ Command fit_command();
 Command render_command();
 Command compare_command();
 Command tonemap_command();
+Command view_command();
 Command regress_command();
 Command reproduce_command();
 Command report_command();

@@ -40,12 +40,40 @@ Colour diverging(double position) {
     return from_display(rgb[0], rgb[1], rgb[2]);
 }
 
+// Linear Rec.709 of Oklab (B. Ottosson, "A perceptual color space for image processing", 2020):
+// equal steps of lightness and of the two opponent axes look alike.
+Colour from_oklab(double lightness, double green_red, double blue_yellow) {
+    const double l = std::pow(lightness + 0.3963377774 * green_red + 0.2158037573 * blue_yellow, 3);
+    const double m = std::pow(lightness - 0.1055613458 * green_red - 0.0638541728 * blue_yellow, 3);
+    const double s = std::pow(lightness - 0.0894841775 * green_red - 1.2914855480 * blue_yellow, 3);
+    return {static_cast<float>(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+            static_cast<float>(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+            static_cast<float>(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+}
+
 }  // namespace
+
+Colour faded_cyclic_colour(double position, double strength) {
+    // The largest circle around this grey that stays within the colours a display has.
+    constexpr double grey = 0.65, lightness = 0.2, green_red = 0.06, blue_yellow = 0.115;
+    const double radius = std::clamp(strength, 0.0, 1.0);
+    const double c = radius * std::cos(2.0 * std::numbers::pi * position);
+    const double s = radius * std::sin(2.0 * std::numbers::pi * position);
+    return from_oklab(grey + lightness * s, green_red * s, blue_yellow * c);
+}
 
 Colour map_colour(ColourMap map, double position) {
     if (std::isnan(position)) return {1.0F, 0.0F, 1.0F};
     position = std::clamp(position, 0.0, 1.0);
-    return map == ColourMap::sequential ? cubehelix(position) : diverging(position);
+    switch (map) {
+        case ColourMap::sequential:
+            return cubehelix(position);
+        case ColourMap::diverging:
+            return diverging(position);
+        case ColourMap::cyclic:
+            break;
+    }
+    return faded_cyclic_colour(position, 1.0);
 }
 
 std::vector<double> bar_ticks(double low, double high) {
@@ -72,6 +100,9 @@ namespace {
 int ramp_width(int scale) {
     return 12 * scale;
 }
+std::vector<double> ticks_of(const ColourBar& bar) {
+    return bar.ticks.empty() ? bar_ticks(bar.low, bar.high) : bar.ticks;
+}
 int label_offset(int scale) {
     return ramp_width(scale) + 5 * scale;
 }
@@ -80,7 +111,7 @@ int label_offset(int scale) {
 
 int colour_bar_width(const ColourBar& bar, int scale) {
     int widest = 0;
-    for (const double tick : bar_ticks(bar.low, bar.high)) {
+    for (const double tick : ticks_of(bar)) {
         widest = std::max(widest, text_width(format_double(tick)));
     }
     return label_offset(scale) + widest * scale;
@@ -94,7 +125,7 @@ void draw_colour_bar(Picture& picture, int x, int y, int height, const ColourBar
         fill_rectangle(picture, x, y + row, width, 1, map_colour(bar.map, position));
     }
     draw_frame(picture, x, y, width, height, ink);
-    for (const double tick : bar_ticks(bar.low, bar.high)) {
+    for (const double tick : ticks_of(bar)) {
         const double position = (tick - bar.low) / (bar.high - bar.low);
         const int row = y + static_cast<int>(std::lround((1.0 - position) * (height - 1)));
         fill_rectangle(picture, x + width, row, 3 * scale, 1, ink);

@@ -16,15 +16,24 @@ enum class ColourMap {
     // Blue below, white at the middle, orange above; luminance falls alike towards both ends.
     // Blue and orange stay apart for the common (red-green) colour blindnesses.
     diverging,
+    // For angles: ends where it starts. A circle around a middle grey whose diameters are yellow to
+    // blue (positions 0 and 1/2) and light rose to dark green (1/4 and 3/4), so that a quarter turn
+    // stays a difference of hue or of lightness for the common colour blindnesses and in no
+    // direction looks like no direction.
+    cyclic,
 };
 
-// Linear colour at `position` in [0, 1] (clamped). NaN is magenta, which is in neither map.
+// Linear colour at `position` in [0, 1] (clamped). NaN is magenta, which is in none of the maps.
 Colour map_colour(ColourMap map, double position);
+
+// The cyclic map faded: `strength` (clamped to [0, 1]) 1 is the map's colour, 0 its middle grey.
+Colour faded_cyclic_colour(double position, double strength);
 
 struct ColourBar {
     ColourMap map = ColourMap::sequential;
-    double low = 0.0, high = 1.0;  // values at the bottom and at the top, low < high
-    std::string label;             // written above, "" for none
+    double low = 0.0, high = 1.0;    // values at the bottom and at the top, low < high
+    std::string label;               // written above, "" for none
+    std::vector<double> ticks = {};  // values that get a number; none: bar_ticks
 };
 
 // At most six round values (steps of 1, 2 or 5 times a power of ten) within [low, high].

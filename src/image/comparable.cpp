@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
-#include "image/polarisation.h"
+#include "image/stokes_layer.h"
 
 namespace drude {
 

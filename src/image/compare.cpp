@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/numbers.h"
 #include "image/comparable.h"
+#include "image/stokes_layer.h"
 
 namespace drude {
 

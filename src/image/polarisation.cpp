@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/numbers.h"
+#include "image/stokes_layer.h"
 
 namespace drude {
 
@@ -17,25 +17,8 @@ bool has_layer(const Image& image, const std::string& suffix) {
     return image.find("S0." + suffix) && image.find("S1." + suffix) && image.find("S2." + suffix);
 }
 
-std::vector<double> values(const Image& image, const std::string& name) {
-    const Channel& channel = image.at(name, "picture");
-    return {channel.data.begin(), channel.data.end()};
-}
-
 void read_layer(const Image& image, const std::string& suffix, Layer& layer) {
-    for (int i = 0; i < 3; ++i) {
-        const std::string prefix = "S" + std::to_string(i) + ".";
-        if (suffix != "Y") {
-            layer[i] = values(image, prefix + suffix);
-            continue;
-        }
-        layer[i].assign(image.pixels(), 0.0);
-        constexpr double weight[3] = {0.2126, 0.7152, 0.0722};
-        for (int c = 0; c < 3; ++c) {
-            const std::vector<double> colour = values(image, prefix + "RGB"[c]);
-            for (size_t p = 0; p < colour.size(); ++p) layer[i][p] += weight[c] * colour[p];
-        }
-    }
+    for (int i = 0; i < 3; ++i) layer[i] = stokes_values(image, "picture", i, suffix);
 }
 
 std::vector<std::string> common_layers(const Image& a, const Image& b) {
@@ -53,18 +36,6 @@ std::vector<std::string> common_layers(const Image& a, const Image& b) {
 }
 
 }  // namespace
-
-std::optional<double> layer_wavelength(const std::string& channel) {
-    // "S0." to "S3.", digits with a comma for the point, "nm" (Fichet et al., JCGT 10(3), 2021).
-    if (channel.size() < 6 || channel[0] != 'S' || channel[1] < '0' || channel[1] > '3' ||
-        channel[2] != '.' || channel.compare(channel.size() - 2, 2, "nm") != 0) {
-        return std::nullopt;
-    }
-    std::string number = channel.substr(3, channel.size() - 5);
-    std::replace(number.begin(), number.end(), ',', '.');
-    const std::optional<double> value = parse_double(number);
-    return value && *value > 0.0 && std::isfinite(*value) ? value : std::nullopt;
-}
 
 std::optional<PolarisationErrors> polarisation_errors(const Image& a, const Image& b) {
     PolarisationErrors errors;

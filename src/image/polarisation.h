@@ -27,7 +27,4 @@ struct PolarisationErrors {
 // their own may be negative. Nothing where a picture has neither. Sizes must agree.
 std::optional<PolarisationErrors> polarisation_errors(const Image& a, const Image& b);
 
-// The wavelength of a spectral layer ("S1.550,000000nm": 550), or nothing for another channel.
-std::optional<double> layer_wavelength(const std::string& channel);
-
 }  // namespace drude

@@ -129,6 +129,42 @@ TEST(ColourMap, DivergingIsWhiteInTheMiddleAndEvenTowardsBothEnds) {
     }
 }
 
+// A full turn comes back, no step of it looks grey, and what is a sixth of a turn or more apart
+// stays apart for every eye: distances of the cube roots of R, G, B, which follow lightness.
+TEST(ColourMap, CyclicClosesAndKeepsDirectionsApartForEveryEye) {
+    const auto distance = [](const Colour& a, const Colour& b) {
+        double sum = 0.0;
+        for (size_t c = 0; c < 3; ++c) {
+            const double d =
+                std::cbrt(static_cast<double>(a[c])) - std::cbrt(static_cast<double>(b[c]));
+            sum += d * d;
+        }
+        return std::sqrt(sum);
+    };
+    const Colour first = map_colour(ColourMap::cyclic, 0.0),
+                 last = map_colour(ColourMap::cyclic, 1.0);
+    EXPECT_LT(distance(first, last), 1e-5);
+    const Colour grey = faded_cyclic_colour(0.3, 0.0);
+    EXPECT_NEAR(grey[0], grey[1], 1e-5F);
+    EXPECT_NEAR(grey[1], grey[2], 1e-5F);
+    EXPECT_EQ(grey, faded_cyclic_colour(0.9, -1.0));
+    constexpr int steps = 36;
+    for (int i = 0; i < steps; ++i) {
+        const Colour a = map_colour(ColourMap::cyclic, static_cast<double>(i) / steps);
+        EXPECT_EQ(a, faded_cyclic_colour(static_cast<double>(i) / steps, 7.0));
+        for (const float value : a) EXPECT_TRUE(value >= 0.0F && value <= 1.0F) << i;
+        for (const bool deuteranope : {false, true}) {
+            const Colour seen = without_red_green(a, deuteranope);
+            EXPECT_GT(distance(seen, without_red_green(grey, deuteranope)), 0.12) << i;
+            for (int k = steps / 6; k <= steps / 2; ++k) {
+                const Colour b =
+                    map_colour(ColourMap::cyclic, static_cast<double>((i + k) % steps) / steps);
+                EXPECT_GT(distance(seen, without_red_green(b, deuteranope)), 0.12) << i << ' ' << k;
+            }
+        }
+    }
+}
+
 TEST(ColourMap, ClampsAndMarksWhatIsNoNumber) {
     const double infinite = std::numeric_limits<double>::infinity();
     for (const ColourMap map : {ColourMap::sequential, ColourMap::diverging}) {
@@ -146,6 +182,14 @@ TEST(ColourBar, TicksAreRoundAndWithin) {
     EXPECT_EQ(bar_ticks(0.1, 3.2), (Ticks{0.5, 1, 1.5, 2, 2.5, 3}));
     EXPECT_EQ(bar_ticks(0, 1e6).size(), 6U);
     EXPECT_EQ(bar_ticks(-3e-5, 2e-5), (Ticks{-3e-5, -2e-5, -1e-5, 0, 1e-5, 2e-5}));
+}
+
+TEST(ColourBar, NumbersGoWhereTheBarWantsThem) {
+    const ColourBar bar = {ColourMap::cyclic, 0, 180, "", {0, 45, 90, 135, 180}};
+    Picture picture(colour_bar_width(bar, 1) + 2, 120, white);
+    draw_colour_bar(picture, 1, 10, 100, bar, red, 1);
+    EXPECT_EQ(picture.at(14, 10 + 74), red);  // 45: a quarter up, 0.75 x 99 rows down
+    EXPECT_EQ(picture.at(14, 10 + 80), white);
 }
 
 TEST(ColourBar, RunsFromLowAtTheBottomToHighAtTheTop) {

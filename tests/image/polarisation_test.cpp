@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "image/compare.h"
+#include "image/stokes_layer.h"
 #include "shared_data.h"
 #include "temporary_folder.h"
 
