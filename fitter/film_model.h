@@ -80,20 +80,25 @@ Reflection<T> film_reflection(const FilmProblem& problem, const BandNode& node,
     return reflect(films, 2, substrate, cos_theta, wavelength);
 }
 
-// Averaged over the slit and the thicknesses.
+// Averaged over the slit and the thicknesses; `indices` are the film's at the nodes of the slit.
 template <class T>
 Reflection<T> average_reflection(const FilmProblem& problem, size_t wavelength,
-                                 const FilmParameters<T>& p, const T& cos_theta) {
+                                 const ComplexIndex<T>* indices, const FilmParameters<T>& p,
+                                 const T& cos_theta) {
     using std::sqrt;
+    const std::vector<BandNode>& band = problem.bands[wavelength];
+    if (!is_averaged(problem)) {
+        return film_reflection(problem, band[0], indices[0], p.thickness, p.roughness, cos_theta);
+    }
     Reflection<T> sum{T(0.0), T(0.0), T(0.0), T(0.0)};
-    for (const BandNode& node : problem.bands[wavelength]) {
-        const ComplexIndex<T> index = film_index(node.material, p.porosity);
+    for (size_t n = 0; n < band.size(); ++n) {
+        const BandNode& node = band[n];
         for (size_t i = 0; i < problem.spread_nodes.size(); ++i) {
             const T thickness = p.thickness + T(problem.spread_nodes[i]) * p.spread;
             // No film is thinner than nothing.
             const T positive = select(thickness < T(0.0), T(0.0), thickness);
             const Reflection<T> r =
-                film_reflection(problem, node, index, positive, p.roughness, cos_theta);
+                film_reflection(problem, node, indices[n], positive, p.roughness, cos_theta);
             const T weight(node.weight * problem.spread_weights[i]);
             sum.Rs = sum.Rs + weight * r.Rs;
             sum.Rp = sum.Rp + weight * r.Rp;
@@ -101,7 +106,6 @@ Reflection<T> average_reflection(const FilmProblem& problem, size_t wavelength,
             sum.S = sum.S + weight * r.S;
         }
     }
-    if (!is_averaged(problem)) return sum;
     // Psi and Delta of pure light with the same two angles.
     const T length2 = sum.C * sum.C + sum.S * sum.S;
     if (length2 > T(1e-30)) {
@@ -118,10 +122,18 @@ bool film_residuals(const FilmProblem& problem, size_t wavelength, const FilmPar
                     T* residuals) {
     using std::cos;
     using std::sin;
+    // What a mixture costs is paid once for all angles.
+    const std::vector<BandNode>& band = problem.bands[wavelength];
+    const ComplexIndex<T> single = film_index(band[0].material, p.porosity);
+    std::vector<ComplexIndex<T>> several;
+    for (size_t n = 0; n < band.size() && band.size() > 1; ++n) {
+        several.push_back(film_index(band[n].material, p.porosity));
+    }
+    const ComplexIndex<T>* const indices = several.empty() ? &single : several.data();
     const T cos_offset = cos(p.offset), sin_offset = sin(p.offset);
     for (const AnglePoint& point : problem.groups[wavelength].points) {
         const T cos_theta = T(point.cos_theta) * cos_offset - T(point.sin_theta) * sin_offset;
-        const Reflection<T> model = average_reflection(problem, wavelength, p, cos_theta);
+        const Reflection<T> model = average_reflection(problem, wavelength, indices, p, cos_theta);
         const bool reflects = problem.estimator == Estimator::rho2
                                   ? rho2_residual(point, model, residuals)
                                   : psi_delta_residuals(point, model, residuals);
