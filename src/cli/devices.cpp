@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "cli/command_list.h"
 #include "cli/json_output.h"
-#include "device/usb.h"
+#include "device/usb/usb_listing.h"
 
 namespace drude {
 

@@ -7,7 +7,7 @@
 #include "cli/command_list.h"
 #include "cli/films.h"
 #include "cli/json_output.h"
-#include "device/ellipsometer_simulation.h"
+#include "device/virtual/ellipsometer_simulation.h"
 #include "materials/surface.h"
 
 namespace drude {

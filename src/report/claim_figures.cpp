@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "device/ellipsometer_simulation.h"
+#include "device/virtual/ellipsometer_simulation.h"
 #include "fitter/fit.h"
 #include "fitter/fitted_material.h"
 #include "materials/surface.h"

@@ -4,7 +4,7 @@
 
 #include "base/files.h"
 #include "base/sha256.h"
-#include "device/ellipsometer_simulation.h"
+#include "device/virtual/ellipsometer_simulation.h"
 #include "fitter/fit.h"
 #include "fitter/fitted_material.h"
 #include "materials/effective_medium.h"

@@ -9,7 +9,7 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "base/sha256.h"
-#include "device/ellipsometer_simulation.h"
+#include "device/virtual/ellipsometer_simulation.h"
 #include "fitter/fit.h"
 #include "fitter/fitted_material.h"
 #include "materials/embedded_tables.h"

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/numbers.h"
-#include "device/ellipsometer_simulation.h"
+#include "device/virtual/ellipsometer_simulation.h"
 #include "fitter/literature.h"
 #include "materials/json_tree.h"
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "device/ellipsometer_simulation.h"
+#include "device/virtual/ellipsometer_simulation.h"
 #include "report/claim_figures.h"
 #include "report/claims.h"
 #include "report/figure_9.h"

@@ -1,4 +1,4 @@
-#include "device/ellipsometer_simulation.h"
+#include "device/virtual/ellipsometer_simulation.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "base/counter_random.h"
 #include "base/error.h"
 #include "base/numbers.h"
-#include "device/ellipsometer_simulation.h"
+#include "device/virtual/ellipsometer_simulation.h"
 #include "fitter/dispersion_model.h"
 #include "fitter/fit.h"
 #include "fitter/kramers_kronig_spline.h"

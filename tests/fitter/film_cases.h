@@ -5,7 +5,7 @@
 
 #include "base/counter_random.h"
 #include "base/numbers.h"
-#include "device/ellipsometer_simulation.h"
+#include "device/virtual/ellipsometer_simulation.h"
 #include "materials/effective_medium.h"
 
 namespace drude {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "device/ellipsometer_simulation.h"
+#include "device/virtual/ellipsometer_simulation.h"
 #include "fit_cases.h"
 #include "fitter/fit.h"
 #include "fitter/fitted_material.h"

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
-#include "device/ellipsometer_simulation.h"
+#include "device/virtual/ellipsometer_simulation.h"
 #include "film_cases.h"
 #include "fit_cases.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/numbers.h"
-#include "device/ellipsometer_simulation.h"
+#include "device/virtual/ellipsometer_simulation.h"
 #include "fitter/fit.h"
 #include "fitter/fitted_material.h"
 

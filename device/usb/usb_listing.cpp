@@ -1,4 +1,4 @@
-#include "device/usb.h"
+#include "device/usb/usb_listing.h"
 
 #include <fmt/format.h>
 #include <libusb.h>
