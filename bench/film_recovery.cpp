@@ -30,10 +30,7 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "expected film_recovery [FIRST_SEED LAST_SEED]\n");
         return 2;
     }
-    FitOptions options;
-    options.model = "film";
-    options.film.substrate = published_set("Al-Rakic");
-    options.film.material = published_set("Al2O3-Malitson-o");
+    FitOptions options = anodised_options();
     uint64_t found = 0, within_1 = 0;
     double seconds = 0;
     for (uint64_t seed = first; seed <= last; ++seed) {

@@ -92,10 +92,8 @@ ordered_json film_json(const Timed& timed) {
 void run(const std::string& folder) {
     FitOptions bulk;
     bulk.threads = 1;
-    FitOptions film = bulk;
-    film.model = "film";
-    film.film.substrate = published_set("Al-Rakic");
-    film.film.material = published_set("Al2O3-Malitson-o");
+    FitOptions film = anodised_options();
+    film.threads = 1;
     FitOptions local = film;
     local.film.start = start;
     const Measurement metal = read_measurement(folder + "/metal.csv");

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/executor.h"
+#include "fitter/dense_solver.h"
 #include "fitter/dispersion_start.h"
 #include "fitter/identifiability.h"
 #include "fitter/kramers_kronig_spline.h"
@@ -22,7 +23,6 @@ namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t starts_refined = 6;
-constexpr int most_spline_intervals = 60;  // as DispersionModel takes them
 
 struct Solution {
     std::vector<double> parameters;
@@ -66,13 +66,7 @@ Solution refine(const DispersionModel& model, const Setup& setup, std::vector<do
     } else {
         problem.SetParameterBlockConstant(&solution.offset);
     }
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;
-    options.max_num_iterations = 300;
-    options.function_tolerance = 1e-10;
-    options.parameter_tolerance = 1e-10;
+    const ceres::Solver::Options options = dense_solver(300, 1e-10);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
     // Flat valleys of formulas with more parameters than the data need end by the number of steps;
@@ -230,8 +224,7 @@ DispersionFit fit_smallest(const std::vector<std::string>& names, const Setup& s
                 lowest = rung.bic;
                 best = std::move(fit);
             } else {
-                rung.objection = fmt::format("BIC falls by {:.4g}, not by more than {:g}",
-                                             lowest - rung.bic, ladder_bic_gain);
+                rung.objection = small_gain(lowest - rung.bic);
             }
         } catch (const Error& error) {
             if (error.cause() != Cause::answer_is_no) throw;

@@ -96,9 +96,9 @@ bool starts_with(const std::string& text, std::string_view word) {
 
 void add_spline(const std::string& name, const Wavelengths& wavelengths, DispersionTerms* terms) {
     const auto intervals = parse_unsigned(std::string_view(name).substr(7));
-    if (!intervals || *intervals < 1 || *intervals > 60) {
-        user_error("found the dispersion '{}', expected spline:N with N from 1 to 60 intervals",
-                   name);
+    if (!intervals || *intervals < 1 || *intervals > most_spline_intervals) {
+        user_error("found the dispersion '{}', expected spline:N with N from 1 to {} intervals",
+                   name, most_spline_intervals);
     }
     terms->push_back(constant_term());
     terms->push_back(free_electron_term(wavelengths));

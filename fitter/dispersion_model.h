@@ -10,6 +10,9 @@
 
 namespace drude {
 
+// Of the dispersion "spline:N".
+inline constexpr int most_spline_intervals = 60;
+
 // How a parameter enters the permittivity: those that are linear, or linear in the square (lower
 // bound 0), have starts by linear least squares.
 enum class ParameterRole { nonlinear, linear, squared };

@@ -9,6 +9,7 @@
 
 #include "base/counter_random.h"
 #include "base/executor.h"
+#include "fitter/dense_solver.h"
 #include "fitter/nonnegative_least_squares.h"
 
 namespace drude {
@@ -99,12 +100,8 @@ Candidate refine(const DispersionModel& model, const std::vector<PermittivityTar
         problem.SetParameterLowerBound(p, static_cast<int>(j), model.parameters()[j].lower);
         problem.SetParameterUpperBound(p, static_cast<int>(j), model.parameters()[j].upper);
     }
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;
-    options.max_num_iterations = 100;
-    options.function_tolerance = 1e-6;
+    ceres::Solver::Options options = dense_solver(100, 1e-6);
+    options.parameter_tolerance = 1e-8;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
     if (summary.IsSolutionUsable() && std::isfinite(summary.final_cost)) {

@@ -80,6 +80,15 @@ Reflection<T> film_reflection(const FilmProblem& problem, const BandNode& node,
     return reflect(films, 2, substrate, cos_theta, wavelength);
 }
 
+// A share of an average of intensities.
+template <class T>
+void add_weighted(const Reflection<T>& r, const T& weight, Reflection<T>* sum) {
+    sum->Rs = sum->Rs + weight * r.Rs;
+    sum->Rp = sum->Rp + weight * r.Rp;
+    sum->C = sum->C + weight * r.C;
+    sum->S = sum->S + weight * r.S;
+}
+
 // Averaged over the slit and the thicknesses; `indices` are the film's at the nodes of the slit.
 template <class T>
 Reflection<T> average_reflection(const FilmProblem& problem, size_t wavelength,
@@ -99,11 +108,7 @@ Reflection<T> average_reflection(const FilmProblem& problem, size_t wavelength,
             const T positive = select(thickness < T(0.0), T(0.0), thickness);
             const Reflection<T> r =
                 film_reflection(problem, node, indices[n], positive, p.roughness, cos_theta);
-            const T weight(node.weight * problem.spread_weights[i]);
-            sum.Rs = sum.Rs + weight * r.Rs;
-            sum.Rp = sum.Rp + weight * r.Rp;
-            sum.C = sum.C + weight * r.C;
-            sum.S = sum.S + weight * r.S;
+            add_weighted(r, T(node.weight * problem.spread_weights[i]), &sum);
         }
     }
     // Psi and Delta of pure light with the same two angles.

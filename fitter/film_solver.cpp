@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "fitter/dense_solver.h"
 #include "fitter/film_average.h"
 #include "fitter/fit_data.h"
 #include "fitter/offset_fit.h"
@@ -56,13 +57,7 @@ FilmSolution solve(const FilmProblem& problem, const FilmValues& start,
             least_squares.SetParameterUpperBound(addresses[j], 0, range.upper[j]);
         }
     }
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;
-    options.max_num_iterations = bounded ? 200 : 50;
-    options.function_tolerance = 1e-12;
-    options.parameter_tolerance = 1e-12;
+    const ceres::Solver::Options options = dense_solver(bounded ? 200 : 50, 1e-12);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &least_squares, &summary);
     solution.converged =

@@ -178,18 +178,6 @@ std::string wavelength_list(const std::vector<double>& wavelengths) {
     return list + " nm";
 }
 
-OpticalConstants constants_of(const std::vector<FittedPoint>& points) {
-    OpticalConstants constants;
-    constants.name = "the fitted surface";
-    for (const FittedPoint& point : points) {
-        if (!point.identifiable) continue;
-        constants.wavelength_nm.push_back(point.wavelength_nm);
-        constants.n.push_back(point.n);
-        constants.k.push_back(point.k);
-    }
-    return constants;
-}
-
 // Weights that say nothing of the noise: the residuals themselves say how large it is.
 void scale_sigmas(FitResult* result) {
     const double scale = std::sqrt(result->chi2_reduced());
@@ -327,9 +315,7 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
     }
     if (!options.dispersion.empty() && !options.unweighted) {
         if (hold_nothing(groups, estimator)) {
-            throw Error(Cause::answer_is_no,
-                        "no fit: within their noise the data are Psi = 45 and Delta = 180 degrees, "
-                        "as of every surface near normal incidence: they hold nothing of n and k");
+            throw Error(Cause::answer_is_no, fmt::format("no fit: {}", normal_incidence_reason));
         }
         for (FittedPoint& point : result.points) refuse_if_vague(&point);
     }
@@ -347,8 +333,9 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
                                 result.points.size(), result.points.front().reason));
     }
     if (options.roughness_nm.value > 0) {
-        result.layers.push_back(
-            roughness_layer(constants_of(result.points), options.roughness_nm.value));
+        OpticalConstants surface = result.constants();
+        surface.name = "the fitted surface";
+        result.layers.push_back(roughness_layer(surface, options.roughness_nm.value));
     }
     warn_about_result(&result, options.unweighted);
     return result;

@@ -4,6 +4,27 @@
 
 namespace drude {
 
+const FittedParameter* FitResult::find(std::string_view name) const {
+    for (const FittedParameter& parameter : common) {
+        if (parameter.name == name) return &parameter;
+    }
+    return nullptr;
+}
+
+OpticalConstants FitResult::constants() const {
+    OpticalConstants table;
+    table.kind = "fitted";
+    for (const FittedPoint& point : points) {
+        if (!point.identifiable) continue;
+        table.wavelength_nm.push_back(point.wavelength_nm);
+        table.n.push_back(point.n);
+        table.k.push_back(point.k);
+        table.sigma_n.push_back(point.sigma_n);
+        table.sigma_k.push_back(point.sigma_k);
+    }
+    return table;
+}
+
 double FitResult::chi2_reduced() const {
     return dof() > 0 ? chi2 / dof() : std::numeric_limits<double>::quiet_NaN();
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "materials/material.h"
@@ -78,6 +79,11 @@ struct FitResult {
     std::vector<std::string> warnings;
 
     int dof() const { return data - parameters; }
+    // Of `common` by name, or null where there is none.
+    const FittedParameter* find(std::string_view name) const;
+    // n, k and their standard deviations where they are identifiable, as a table of kind "fitted"
+    // without a name.
+    OpticalConstants constants() const;
     // NaN where there are no more data than parameters.
     double chi2_reduced() const;
 };

@@ -43,9 +43,9 @@ Material fitted_material(const FitResult& fit, const Measurement& measurement,
         return finished(std::move(material), fit, std::move(provenance));
     }
     OpticalConstants& constants = material.substrate;
+    constants = fit.constants();
     constants.name = material.name;
     constants.material = material.name;
-    constants.kind = "fitted";
     constants.citation =
         fit.layers.empty() ? fmt::format(
                                  "pseudo n, k: fitted to Psi and Delta as those of a bare surface "
@@ -55,14 +55,6 @@ Material fitted_material(const FitResult& fit, const Measurement& measurement,
                                          layer_text(fit.layers), fit.estimator);
     if (!fit.dispersion.empty()) constants.citation += "; n and k follow " + fit.dispersion;
     material.layers = fit.layers;
-    for (const FittedPoint& point : fit.points) {
-        if (!point.identifiable) continue;
-        constants.wavelength_nm.push_back(point.wavelength_nm);
-        constants.n.push_back(point.n);
-        constants.k.push_back(point.k);
-        constants.sigma_n.push_back(point.sigma_n);
-        constants.sigma_k.push_back(point.sigma_k);
-    }
     if (constants.wavelength_nm.empty()) {
         throw Error(Cause::answer_is_no, "no wavelength of the fit is identifiable: no material");
     }

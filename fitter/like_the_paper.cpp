@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "fitter/dense_solver.h"
 #include "fitter/fit_data.h"
 #include "fitter/identifiability.h"
 #include "fitter/point_fit.h"
@@ -63,13 +64,8 @@ Solution solve(const WavelengthData& data, int block, double n, double k, double
         problem.SetParameterUpperBound(values + j, 0, upper[j]);
     }
     if (block == 0) problem.SetParameterBlockConstant(values + 2);
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;
-    options.max_num_iterations = 200;
+    ceres::Solver::Options options = dense_solver(200, 1e-13);
     options.function_tolerance = 1e-20;
-    options.parameter_tolerance = 1e-13;
     options.gradient_tolerance = 1e-15;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);

@@ -119,23 +119,9 @@ ConstantsDistance constants_distance(const OpticalConstants& of, const OpticalCo
     return distance;
 }
 
-OpticalConstants fitted_constants(const FitResult& fit) {
-    OpticalConstants constants;
-    constants.kind = "fitted";
-    for (const FittedPoint& point : fit.points) {
-        if (!point.identifiable) continue;
-        constants.wavelength_nm.push_back(point.wavelength_nm);
-        constants.n.push_back(point.n);
-        constants.k.push_back(point.k);
-        constants.sigma_n.push_back(point.sigma_n);
-        constants.sigma_k.push_back(point.sigma_k);
-    }
-    return constants;
-}
-
 LiteratureComparison compare_with_literature(const FitResult& fit, const std::string& sample,
                                              const std::string& asked) {
-    const OpticalConstants fitted = fitted_constants(fit);
+    const OpticalConstants fitted = fit.constants();
     LiteratureComparison comparison;
     comparison.wavelengths = static_cast<int>(fitted.wavelength_nm.size());
     std::vector<LiteratureSet> sets = ranked(fitted);

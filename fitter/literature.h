@@ -43,9 +43,6 @@ struct LiteratureComparison {
     std::string nearest() const { return sets.empty() ? "" : sets.front().name; }
 };
 
-// What the fit determined, as a table: identifiable points only, of a film the film's own.
-OpticalConstants fitted_constants(const FitResult& fit);
-
 // `asked`: a material ("Cu") or one set ("Cu-McPeak"); empty: the material that `sample` names
 // (either way, letter case free), otherwise that of the set that is nearest in root mean square of
 // n and k among the published metals that cover the most fitted wavelengths. That last choice is

@@ -14,10 +14,8 @@ namespace {
 constexpr double degree = pi / 180;
 
 double angle_offset_deg(const FitResult& fit) {
-    for (const FittedParameter& parameter : fit.common) {
-        if (parameter.name == "angle offset" && parameter.identifiable) return parameter.value;
-    }
-    return 0;
+    const FittedParameter* offset = fit.find("angle offset");
+    return offset && offset->identifiable ? offset->value : 0;
 }
 
 const FittedPoint* point_at(const FitResult& fit, double wavelength_nm) {
@@ -46,22 +44,27 @@ Reflection<double> reflection(const FitResult& fit, const FittedPoint& point, do
     return reflect(films.data(), static_cast<int>(films.size()), below, cos_theta, wavelength_nm);
 }
 
-// Over the slit and the thicknesses of a film.
-Reflection<double> averaged(const FitResult& fit, const FittedPoint& point, double cos_theta) {
-    const GaussianNodes even{{0}, {1}}, fine = gaussian_nodes(largest_phase_spread);
-    const GaussianNodes& slit = fit.bandwidth_nm > 0 ? fine : even;
-    const GaussianNodes& spread = fit.thickness_spread_nm > 0 ? fine : even;
+// The slit and the thicknesses of a film.
+struct Spreads {
+    GaussianNodes slit{{0}, {1}}, thickness{{0}, {1}};
+};
+
+Spreads spreads_of(const FitResult& fit) {
+    Spreads spreads;
+    if (fit.bandwidth_nm > 0) spreads.slit = gaussian_nodes(largest_phase_spread);
+    if (fit.thickness_spread_nm > 0) spreads.thickness = gaussian_nodes(largest_phase_spread);
+    return spreads;
+}
+
+Reflection<double> averaged(const FitResult& fit, const Spreads& over, const FittedPoint& point,
+                            double cos_theta) {
     Reflection<double> sum{0, 0, 0, 0};
-    for (size_t i = 0; i < slit.x.size(); ++i) {
-        const double nm = point.wavelength_nm + gaussian_sigma(fit.bandwidth_nm) * slit.x[i];
-        for (size_t j = 0; j < spread.x.size(); ++j) {
-            const Reflection<double> r =
-                reflection(fit, point, nm, fit.thickness_spread_nm * spread.x[j], cos_theta);
-            const double weight = slit.weight[i] * spread.weight[j];
-            sum.Rs += weight * r.Rs;
-            sum.Rp += weight * r.Rp;
-            sum.C += weight * r.C;
-            sum.S += weight * r.S;
+    for (size_t i = 0; i < over.slit.x.size(); ++i) {
+        const double nm = point.wavelength_nm + gaussian_sigma(fit.bandwidth_nm) * over.slit.x[i];
+        for (size_t j = 0; j < over.thickness.x.size(); ++j) {
+            add_weighted(reflection(fit, point, nm, fit.thickness_spread_nm * over.thickness.x[j],
+                                    cos_theta),
+                         over.slit.weight[i] * over.thickness.weight[j], &sum);
         }
     }
     return sum;
@@ -73,11 +76,12 @@ Measurement model_curve(const FitResult& fit, const Measurement& measurement) {
     Measurement curve;
     curve.file = measurement.file;
     const double offset_deg = angle_offset_deg(fit);
+    const Spreads spreads = spreads_of(fit);
     for (MeasurementRow row : measurement.rows) {
         const FittedPoint* point = point_at(fit, row.wavelength_nm);
         if (!point) continue;
         const double cos_theta = std::cos((row.angle_deg + offset_deg) * degree);
-        const Reflection<double> r = averaged(fit, *point, cos_theta);
+        const Reflection<double> r = averaged(fit, spreads, *point, cos_theta);
         if (!has_angles(r)) continue;
         row.psi_deg = psi(r) / degree;
         row.delta_deg = delta(r) / degree;
@@ -97,13 +101,10 @@ FitOptions options_taken(const FitOptions& options, const FitResult& fit) {
     taken.model = fit.model;
     if (fit.model != "overlayer") taken.overlayers.clear();
     if (fit.model != "film") taken.film.substrate = {};
-    const auto has = [&](const char* name) {
-        return std::any_of(fit.common.begin(), fit.common.end(),
-                           [&](const FittedParameter& p) { return p.name == name; });
-    };
-    taken.fit_angle_offset = has("angle offset");
-    taken.film.spread_nm = has("thickness spread") ? KnownOrFitted{0, true}
-                                                   : KnownOrFitted{fit.thickness_spread_nm, false};
+    taken.fit_angle_offset = fit.find("angle offset") != nullptr;
+    taken.film.spread_nm = fit.find("thickness spread")
+                               ? KnownOrFitted{0, true}
+                               : KnownOrFitted{fit.thickness_spread_nm, false};
     taken.film.bandwidth_nm = fit.bandwidth_nm;
     if (fit.model != "film") taken.roughness_nm.fitted = false;
     return taken;

@@ -1,6 +1,5 @@
 #include "fitter/model_ladder.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -20,16 +19,13 @@ std::string objection(const FitResult& now, const FitResult& next, bool unweight
         return fmt::format("it explains {} data, fewer than {}", next.data, now.data);
     }
     if (!(next.dof() > 0)) return "it has as many parameters as data";
-    // A bound that the smaller model meets as well does not tell against the larger.
-    const auto at_bound_before = [&](const std::string& name) {
-        return std::any_of(now.common.begin(), now.common.end(),
-                           [&](const FittedParameter& p) { return p.name == name && p.at_bound; });
-    };
     for (const FittedParameter& parameter : next.common) {
         if (!parameter.identifiable) {
             return fmt::format("the data do not determine its {}", parameter.name);
         }
-        if (parameter.at_bound && !at_bound_before(parameter.name)) {
+        // A bound that the smaller model meets as well does not tell against the larger.
+        const FittedParameter* before = now.find(parameter.name);
+        if (parameter.at_bound && !(before && before->at_bound)) {
             return fmt::format("its {} ends at a bound, {:.4g}", parameter.name, parameter.value);
         }
     }
@@ -42,9 +38,7 @@ std::string objection(const FitResult& now, const FitResult& next, bool unweight
                    : fmt::format("its reduced chi-square is {:.4g}", next.chi2_reduced());
     }
     const double gain = bayesian_criterion(now, unweighted) - bayesian_criterion(next, unweighted);
-    if (!(gain > ladder_bic_gain)) {
-        return fmt::format("BIC falls by {:.4g}, not by more than {:g}", gain, ladder_bic_gain);
-    }
+    if (!(gain > ladder_bic_gain)) return small_gain(gain);
     if (!unweighted && !fits && !(distance_from_one(next) < distance_from_one(now))) {
         return fmt::format("its reduced chi-square {:.4g} is further from 1 than {:.4g}",
                            next.chi2_reduced(), now.chi2_reduced());
@@ -106,6 +100,10 @@ class Ladder {
 };
 
 }  // namespace
+
+std::string small_gain(double gain) {
+    return fmt::format("BIC falls by {:.4g}, not by more than {:g}", gain, ladder_bic_gain);
+}
 
 double bayesian_criterion(double chi2, int data, int parameters, bool unweighted) {
     const double misfit = unweighted ? data * std::log(chi2 / data) : chi2;

@@ -1,12 +1,16 @@
 // The smallest model that the data need: a ladder of models, climbed only where it pays.
 #pragma once
 
+#include <string>
+
 #include "fitter/fit.h"
 
 namespace drude {
 
 // A rung is taken only where the Bayesian information criterion falls by more than this.
 inline constexpr double ladder_bic_gain = 10;
+// What is said of a rung whose criterion falls by no more.
+std::string small_gain(double gain);
 
 // chi-square + M ln N with known standard deviations; N ln(chi-square/N) + M ln N where
 // `unweighted`, M parameters and N data (Schwarz, Annals of Statistics 6, 461 (1978)).

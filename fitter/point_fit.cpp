@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "fitter/dense_solver.h"
 #include "fitter/identifiability.h"
 #include "fitter/inversion.h"
 #include "fitter/point_residuals.h"
@@ -34,13 +35,8 @@ std::string minimise(ceres::CostFunction* cost, double* index) {
     problem.SetParameterLowerBound(index, 1, 0);
     problem.SetParameterUpperBound(index, 0, largest_index);
     problem.SetParameterUpperBound(index, 1, largest_index);
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;
-    options.max_num_iterations = 200;
+    ceres::Solver::Options options = dense_solver(200, 1e-13);
     options.function_tolerance = 1e-15;
-    options.parameter_tolerance = 1e-13;
     options.gradient_tolerance = 1e-12;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
@@ -247,10 +243,7 @@ FittedPoint fit_point_from(const WavelengthData& data, Estimator estimator, Inde
 void refuse_if_unknown(const WavelengthData& data, Estimator estimator, FittedPoint* point) {
     if (!point->identifiable) return;
     if (estimator != Estimator::rho2 && !is_poor(chi2_of_normal_incidence(data), point->data)) {
-        return refuse(
-            point,
-            "within their noise the data are Psi = 45 and Delta = 180 degrees, as of every "
-            "surface near normal incidence: they hold nothing of n and k");
+        return refuse(point, normal_incidence_reason);
     }
     refuse_if_vague(point);
 }

@@ -33,6 +33,11 @@ FittedPoint fit_point_from(const WavelengthData& data, Estimator estimator, Inde
 inline constexpr double not_known_at_all = 100;
 void refuse_if_unknown(const WavelengthData& data, Estimator estimator, FittedPoint* point);
 
+// Why data that hold nothing are refused.
+inline constexpr const char* normal_incidence_reason =
+    "within their noise the data are Psi = 45 and Delta = 180 degrees, as of every surface near "
+    "normal incidence: they hold nothing of n and k";
+
 // The two reasons by themselves. Whether Psi = 45 and Delta = 180 degrees explain all of the data;
 // always false for tan^2 Psi alone.
 bool hold_nothing(const std::vector<WavelengthData>& groups, Estimator estimator);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fitter/dense_solver.h"
 #include "fitter/offset_fit.h"
 #include "fitter/point_residuals.h"
 
@@ -41,13 +42,7 @@ double minimise(const WavelengthData& data, Estimator estimator, bool hold_k, do
     problem.SetParameterUpperBound(free, 0, largest_index);
     // At k = 0 the derivative of what reflects symmetrically in k vanishes.
     *free = std::clamp(*free, 1e-6, 0.99 * largest_index);
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;
-    options.max_num_iterations = 100;
-    options.function_tolerance = 1e-12;
-    options.parameter_tolerance = 1e-12;
+    const ceres::Solver::Options options = dense_solver(100, 1e-12);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
     const bool usable = summary.IsSolutionUsable() && std::isfinite(summary.final_cost);

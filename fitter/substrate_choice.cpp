@@ -28,10 +28,8 @@ std::vector<SubstrateAlternative> other_substrates(const Measurement& measuremen
     FitOptions from_here = options_taken(options, fit);
     const FilmLayer& film = fit.layers.back();
     FilmGuess guess{film.thickness_nm, options.film.porosity.value_or(0)};
-    for (const FittedParameter& parameter : fit.common) {
-        if (parameter.name == "porosity" && parameter.identifiable)
-            guess.porosity = parameter.value;
-    }
+    const FittedParameter* porosity = fit.find("porosity");
+    if (porosity && porosity->identifiable) guess.porosity = porosity->value;
     from_here.film.start = guess;
     for (const OpticalConstants& set : published_sets()) {
         if (set.material != fit.substrate.material || set.name == fit.substrate.name) continue;

@@ -95,8 +95,7 @@ void LobeScan::check() const {
     std::map<std::tuple<double, double, double>, size_t> seen;
     for (size_t i = 0; i < rows.size(); ++i) {
         const LobeScanRow& row = rows[i];
-        const Place place = row.line > 0 ? Place{name, row.line, 0}
-                                         : Place{fmt::format("{}, row {}", name, i + 1), 0, 0};
+        const Place place = row_place(name, row.line, i);
         check_row(row, place);
         const auto [known, is_new] =
             seen.insert({{row.wavelength_nm, row.angle_deg, row.offset_deg}, i});
@@ -106,8 +105,7 @@ void LobeScan::check() const {
                       "found {} nm at {} degrees, offset {}, twice, first on {}; expected every "
                       "position once: average or remove one of them",
                       row.wavelength_nm, row.angle_deg, row.offset_deg,
-                      first.line > 0 ? fmt::format("line {}", first.line)
-                                     : fmt::format("row {}", known->second + 1));
+                      row_name(first.line, known->second));
     }
 }
 

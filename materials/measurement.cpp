@@ -73,10 +73,6 @@ void check_row(const MeasurementRow& row, const Place& place) {
           "depolarization", row.depolarization, "a value from 0 to 1 (-1: not known)");
 }
 
-std::string line_name(const MeasurementRow& row, size_t index) {
-    return row.line > 0 ? fmt::format("line {}", row.line) : fmt::format("row {}", index + 1);
-}
-
 }  // namespace
 
 std::string Measurement::header_value(const std::string& key) const {
@@ -118,11 +114,7 @@ void Measurement::check() const {
                    file.empty() ? "measurement" : file);
     }
     for (size_t i = 0; i < rows.size(); ++i) {
-        // A record made in memory has no lines: its rows are counted instead.
-        const std::string name = file.empty() ? "measurement" : file;
-        const Place place = rows[i].line > 0 ? Place{name, rows[i].line, 0}
-                                             : Place{fmt::format("{}, row {}", name, i + 1), 0, 0};
-        check_row(rows[i], place);
+        check_row(rows[i], row_place(file.empty() ? "measurement" : file, rows[i].line, i));
     }
     std::vector<size_t> order(rows.size());
     std::iota(order.begin(), order.end(), size_t{0});
@@ -138,8 +130,8 @@ void Measurement::check() const {
             user_error_at({file.empty() ? "measurement" : file, second.line, 0},
                           "found {} nm at {} degrees twice, on {} and on {}; expected every "
                           "wavelength once at every angle: average or remove one of them",
-                          second.wavelength_nm, second.angle_deg, line_name(first, order[i - 1]),
-                          line_name(second, order[i]));
+                          second.wavelength_nm, second.angle_deg,
+                          row_name(first.line, order[i - 1]), row_name(second.line, order[i]));
         }
     }
 }

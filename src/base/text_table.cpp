@@ -125,6 +125,15 @@ std::string format_header_line(std::string_view key, std::string_view value) {
     return fmt::format("# {}\n", line);
 }
 
+Place row_place(const std::string& file, int line, size_t index) {
+    return line > 0 ? Place{file, line, 0}
+                    : Place{fmt::format("{}, row {}", file, index + 1), 0, 0};
+}
+
+std::string row_name(int line, size_t index) {
+    return line > 0 ? fmt::format("line {}", line) : fmt::format("row {}", index + 1);
+}
+
 TextTable read_text_table(const std::string& path) {
     return parse_text_table(read_file(path), path);
 }

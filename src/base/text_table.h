@@ -40,6 +40,12 @@ TextTable parse_text_table(const std::string& text, const std::string& file);
 // row of data.
 std::string format_header_line(std::string_view key, std::string_view value);
 
+// Where a row of a record stands: its line, or, where it was made in memory (line 0), its number.
+// `index` from 0.
+Place row_place(const std::string& file, int line, size_t index);
+// "line 7" or "row 3", likewise.
+std::string row_name(int line, size_t index);
+
 // read_file and parse_text_table.
 TextTable read_text_table(const std::string& path);
 

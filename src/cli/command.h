@@ -44,6 +44,10 @@ class OptionSet {
     virtual bool given(const std::string& name) const = 0;
 };
 
+// Throws Error (user) "found OPTION, which WHY" for the first of `options` that was given.
+void refuse_options(const OptionSet& given, const std::vector<const char*>& options,
+                    const std::string& why);
+
 struct Command {
     std::string name;
     std::string summary;      // one line

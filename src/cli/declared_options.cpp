@@ -10,6 +10,13 @@
 
 namespace drude {
 
+void refuse_options(const OptionSet& given, const std::vector<const char*>& options,
+                    const std::string& why) {
+    for (const char* option : options) {
+        if (given.given(option)) user_error("found {}, which {}", option, why);
+    }
+}
+
 namespace {
 
 struct Names {

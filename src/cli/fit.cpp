@@ -147,6 +147,8 @@ Provenance provenance_of(const std::string& file, const std::string& text,
 }
 
 void check_combination(const FitCommandOptions& options, const OptionSet& given) {
+    const std::vector<const char*> film_only = {"--film-material", "--porosity", "--max-thickness",
+                                                "--spread", "--bandwidth"};
     if (options.measurement.empty() == options.constants.empty()) {
         user_error("{}",
                    options.measurement.empty()
@@ -159,25 +161,15 @@ void check_combination(const FitCommandOptions& options, const OptionSet& given)
     }
     check_fit_statistics(options.statistics, given, !options.measurement.empty());
     if (options.measurement.empty()) {
-        for (const char* option :
-             {"--estimator", "--model", "--dispersion", "--overlayer", "--substrate",
-              "--film-material", "--porosity", "--max-thickness", "--spread", "--bandwidth",
-              "--roughness", "--angle-offset", "--range", "--unweighted", "--format"}) {
-            if (given.given(option)) {
-                user_error("found {}, which belongs to a fit of n and k to a measurement", option);
-            }
-        }
+        refuse_options(given,
+                       {"--estimator", "--model", "--dispersion", "--overlayer", "--substrate",
+                        "--roughness", "--angle-offset", "--range", "--unweighted", "--format"},
+                       "belongs to a fit of n and k to a measurement");
+        refuse_options(given, film_only, "belongs to a fit of n and k to a measurement");
     }
     if (options.model == "auto" && options.substrate.empty()) {
-        for (const char* option :
-             {"--film-material", "--porosity", "--max-thickness", "--spread", "--bandwidth"}) {
-            if (given.given(option)) {
-                user_error(
-                    "found {}, which belongs to a film: --model auto tries one where "
-                    "--substrate is given",
-                    option);
-            }
-        }
+        refuse_options(given, film_only,
+                       "belongs to a film: --model auto tries one where --substrate is given");
         if (options.roughness == "fit") {
             user_error(
                 "--roughness fit: a roughness is fitted on a film only, which --model auto "
@@ -185,10 +177,7 @@ void check_combination(const FitCommandOptions& options, const OptionSet& given)
         }
     }
     if (options.model == "film" || options.model == "auto") return;
-    for (const char* option :
-         {"--film-material", "--porosity", "--max-thickness", "--spread", "--bandwidth"}) {
-        if (given.given(option)) user_error("found {}, which belongs to --model film", option);
-    }
+    refuse_options(given, film_only, "belongs to --model film");
 }
 
 void warn(const std::vector<std::string>& warnings) {

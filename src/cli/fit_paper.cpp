@@ -208,28 +208,19 @@ void declare_paper_options(OptionSet& options, PaperCommandOptions& values) {
 
 void check_paper_options(const PaperCommandOptions& options, const OptionSet& given) {
     if (!options.wanted) {
-        for (const char* option : {"--wavelength", "--paper-start"}) {
-            if (given.given(option)) {
-                user_error("found {}, which belongs to --like-the-paper", option);
-            }
-        }
+        refuse_options(given, {"--wavelength", "--paper-start"}, "belongs to --like-the-paper");
         return;
     }
     // The procedure has nothing to choose but where it starts.
-    for (const char* option :
-         {"--estimator",     "--model",     "--overlayer",     "--angle-offset", "--range",
-          "--unweighted",    "--lobe-scan", "--constants",     "--lobe",         "--substrate",
-          "--film-material", "--porosity",  "--max-thickness", "--dispersion",   "--spread",
-          "--bandwidth",     "--roughness", "--robust",        "--literature",   "--profile",
-          "--profile-at",    "--bootstrap", "--seed",          "--plots",        "--html",
-          "--name",          "--output"}) {
-        if (given.given(option)) {
-            user_error(
-                "found {}, which --like-the-paper has no use for: it fits tan^2 Psi of a bare "
-                "surface at one wavelength and writes no material",
-                option);
-        }
-    }
+    refuse_options(given, {"--estimator",     "--model",      "--overlayer",     "--angle-offset",
+                           "--range",         "--unweighted", "--lobe-scan",     "--constants",
+                           "--lobe",          "--substrate",  "--film-material", "--porosity",
+                           "--max-thickness", "--dispersion", "--spread",        "--bandwidth",
+                           "--roughness",     "--robust",     "--literature",    "--profile",
+                           "--profile-at",    "--bootstrap",  "--seed",          "--plots",
+                           "--html",          "--name",       "--output"},
+                   "--like-the-paper has no use for: it fits tan^2 Psi of a bare surface at one "
+                   "wavelength and writes no material");
     if (given.given("--wavelength") && !(options.wavelength_nm > 0)) {
         user_error("--wavelength: found {}, expected a wavelength in nm above 0",
                    options.wavelength_nm);

@@ -24,12 +24,10 @@ void declare_fit_statistics(OptionSet& options, FitStatisticsOptions* values) {
 void check_fit_statistics(const FitStatisticsOptions& options, const OptionSet& given,
                           bool measurement) {
     if (!measurement) {
-        for (const char* option : {"--robust", "--literature", "--profile", "--profile-at",
-                                   "--bootstrap", "--plots", "--html"}) {
-            if (given.given(option)) {
-                user_error("found {}, which belongs to a fit of n and k to a measurement", option);
-            }
-        }
+        refuse_options(given,
+                       {"--robust", "--literature", "--profile", "--profile-at", "--bootstrap",
+                        "--plots", "--html"},
+                       "belongs to a fit of n and k to a measurement");
     }
     if (given.given("--seed") && !given.given("--bootstrap")) {
         user_error("found --seed without --bootstrap: nothing else is drawn");

@@ -182,21 +182,39 @@ std::vector<std::string> without_variance(const Image& image,
     return missing;
 }
 
+namespace {
+
+struct Side {
+    const Image& image;
+    const std::string& name;
+    double degrees;  // of freedom of a pixel's variance
+};
+
+// Throws Error (user) for a channel that is missing and for what is no variance.
+ChannelPair channel_pair(const Side& a, const Side& b, const std::string& channel) {
+    const auto variance_of = [&](const Side& side) {
+        const Channel& variance = side.image.at(variance_name(channel), side.name);
+        check_variance(variance, side.image.width, side.name);
+        return variance.data.data();
+    };
+    const float* const variance_a = variance_of(a);
+    const float* const variance_b = variance_of(b);
+    return {a.image.at(channel, a.name).data.data(),
+            b.image.at(channel, b.name).data.data(),
+            variance_a,
+            variance_b,
+            a.degrees,
+            b.degrees,
+            batch_ratio_of(a.image, b.image)};
+}
+
+}  // namespace
+
 std::vector<double> standardised_difference(const Image& a, const Image& b,
                                             const std::string& channel, const std::string& name_a,
                                             const std::string& name_b) {
-    const Channel& variance_a = a.at(variance_name(channel), name_a);
-    const Channel& variance_b = b.at(variance_name(channel), name_b);
-    check_variance(variance_a, a.width, name_a);
-    check_variance(variance_b, b.width, name_b);
     // Degrees of freedom do not enter a difference in standard errors.
-    const ChannelPair pair = {a.at(channel, name_a).data.data(),
-                              b.at(channel, name_b).data.data(),
-                              variance_a.data.data(),
-                              variance_b.data.data(),
-                              1.0,
-                              1.0,
-                              batch_ratio_of(a, b)};
+    const ChannelPair pair = channel_pair({a, name_a, 1.0}, {b, name_b, 1.0}, channel);
     std::vector<double> z(a.pixels());
     for (size_t i = 0; i < z.size(); ++i) {
         const Sums sums = pair.pixel(i);
@@ -222,17 +240,7 @@ NoiseTest noise_test(const Image& a, const Image& b, const std::vector<std::stri
     size_t outliers = 0;
     for (size_t c = 0; c < channels.size(); ++c) {
         const std::string& name = channels[c];
-        const Channel& variance_a = a.at(variance_name(name), name_a);
-        const Channel& variance_b = b.at(variance_name(name), name_b);
-        check_variance(variance_a, a.width, name_a);
-        check_variance(variance_b, b.width, name_b);
-        const ChannelPair pair = {a.at(name, name_a).data.data(),
-                                  b.at(name, name_b).data.data(),
-                                  variance_a.data.data(),
-                                  variance_b.data.data(),
-                                  degrees_a,
-                                  degrees_b,
-                                  batch_ratio_of(a, b)};
+        const ChannelPair pair = channel_pair({a, name_a, degrees_a}, {b, name_b, degrees_b}, name);
         // A row of blocks is one piece of work; results are put together in a fixed order.
         std::vector<RowResult> pixel_rows(blocks_y);
         std::vector<Sums> blocks(blocks_x * blocks_y);

@@ -13,10 +13,6 @@ namespace {
 // S0, S1, S2 of one layer, a value a pixel.
 using Layer = std::vector<double>[3];
 
-bool has_layer(const Image& image, const std::string& suffix) {
-    return image.find("S0." + suffix) && image.find("S1." + suffix) && image.find("S2." + suffix);
-}
-
 void read_layer(const Image& image, const std::string& suffix, Layer& layer) {
     for (int i = 0; i < 3; ++i) layer[i] = stokes_values(image, "picture", i, suffix);
 }
@@ -26,11 +22,11 @@ std::vector<std::string> common_layers(const Image& a, const Image& b) {
     for (const Channel& channel : a.channels) {
         if (channel.name.rfind("S0.", 0) != 0 || !layer_wavelength(channel.name)) continue;
         const std::string suffix = channel.name.substr(3);
-        if (has_layer(a, suffix) && has_layer(b, suffix)) layers.push_back(suffix);
+        if (has_linear(a, suffix) && has_linear(b, suffix)) layers.push_back(suffix);
     }
     if (!layers.empty()) return layers;
     for (const char* colour : {"R", "G", "B"}) {
-        if (!has_layer(a, colour) || !has_layer(b, colour)) return {};
+        if (!has_linear(a, colour) || !has_linear(b, colour)) return {};
     }
     return {"Y"};
 }

@@ -8,13 +8,9 @@
 
 namespace drude {
 
-namespace {
-
 bool has_linear(const Image& image, const std::string& suffix) {
     return image.find("S0." + suffix) && image.find("S1." + suffix) && image.find("S2." + suffix);
 }
-
-}  // namespace
 
 std::optional<double> layer_wavelength(const std::string& channel) {
     // "S0." to "S3.", digits with a comma for the point, "nm" (Fichet et al., JCGT 10(3), 2021).

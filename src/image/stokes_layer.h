@@ -13,6 +13,9 @@ namespace drude {
 // The wavelength of a spectral layer ("S1.550,000000nm": 550), or nothing for another channel.
 std::optional<double> layer_wavelength(const std::string& channel);
 
+// Whether S0, S1 and S2 are there for "R" or "550,000000nm".
+bool has_linear(const Image& image, const std::string& suffix);
+
 // Component `i` (0 to 3) of a layer, a value a pixel: of the channel "S<i>.<suffix>", or for "Y"
 // the luminance (Rec.709) of S<i>.R, S<i>.G and S<i>.B, which is linear in the spectrum where R, G
 // and B of their own may be negative. Throws Error (user) that names the file `where` and the

@@ -97,7 +97,7 @@ void show_summary(const FitReport& report, Page* page) {
 void show_constants(const FitReport& report, Page* page) {
     page->section("Optical constants", "constants");
     add_figures(constants_figures(report), page);
-    const OpticalConstants fitted = fitted_constants(report.fit);
+    const OpticalConstants fitted = report.fit.constants();
     constexpr size_t most_rows = 25;
     const size_t step = std::max<size_t>(1, (fitted.n.size() + most_rows - 1) / most_rows);
     PageTable table;
@@ -159,7 +159,7 @@ void show_bootstrap(const FitReport& report, Page* page) {
         const FittedParameter& p = report.fit.common[i];
         add(named(p.name, p.unit), "", result.common[i], p.sigma);
     }
-    const OpticalConstants fitted = fitted_constants(report.fit);
+    const OpticalConstants fitted = report.fit.constants();
     constexpr size_t most = 25;
     const size_t step = std::max<size_t>(1, (result.points.size() + most - 1) / most);
     for (size_t i = 0; i < result.points.size(); i += step) {

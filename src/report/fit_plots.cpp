@@ -221,7 +221,7 @@ void add_literature(const LiteratureComparison& literature, bool n, Plot* plot) 
 }
 
 FitFigure constants_figure(const FitReport& report, bool n) {
-    const OpticalConstants fitted = fitted_constants(report.fit);
+    const OpticalConstants fitted = report.fit.constants();
     Plot plot;
     plot.title = titled(report, n ? "refractive index n" : "extinction coefficient k");
     plot.description = fmt::format(

@@ -9,21 +9,13 @@
 #include "image/colour_map.h"
 #include "image/difference.h"
 #include "image/srgb.h"
+#include "image/stokes_layer.h"
 #include "report/markup.h"
 #include "report/packed_layers.h"
 
 namespace drude {
 
 namespace {
-
-// "S0.550,000000nm": 550; otherwise nothing.
-std::optional<double> layer_wavelength(const std::string& name) {
-    if (name.size() < 6 || name.rfind("S0.", 0) != 0) return {};
-    if (name.compare(name.size() - 2, 2, "nm") != 0) return {};
-    std::string number = name.substr(3, name.size() - 5);
-    std::replace(number.begin(), number.end(), ',', '.');
-    return parse_double(number);
-}
 
 size_t channel_index(const Image& image, const std::string& name) {
     return static_cast<size_t>(&image.at(name, "the picture") - image.channels.data());
@@ -125,19 +117,12 @@ PictureData::Layers PictureData::layers_of(const Image& image,
 
 void PictureData::add_spectra(const StudyPair& pair) {
     const auto planes_of = [](const Image& image, std::vector<double>* wavelengths) {
-        std::vector<std::pair<double, std::string>> found;
-        for (const Channel& channel : image.channels) {
-            if (const auto nm = layer_wavelength(channel.name)) {
-                found.emplace_back(*nm, channel.name.substr(3));
-            }
-        }
-        std::sort(found.begin(), found.end());
         std::vector<std::array<size_t, 4>> planes;
-        for (const auto& layer : found) {
-            wavelengths->push_back(layer.first);
+        for (const LayerChoice& layer : spectral_layers(image)) {
+            wavelengths->push_back(*layer.wavelength_nm);
             planes.emplace_back();
             for (size_t row = 0; row < 4; ++row) {
-                planes.back()[row] = channel_index(image, fmt::format("S{}.{}", row, layer.second));
+                planes.back()[row] = channel_index(image, fmt::format("S{}.{}", row, layer.suffix));
             }
         }
         return planes;

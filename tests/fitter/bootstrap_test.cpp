@@ -60,10 +60,7 @@ TEST(Bootstrap, SilverFromTan2PsiIsSkewed) {
 
 TEST(Bootstrap, CommonParametersToo) {
     const Measurement data = measured_film(1500, 0.1, 3, {60});
-    FitOptions options;
-    options.model = "film";
-    options.film.substrate = published_set("Al-Rakic");
-    options.film.material = published_set("Al2O3-Malitson-o");
+    FitOptions options = anodised_options();
     options.film.largest_thickness_nm = 3000;
     const FitResult fit = fit_measurement(data, options);
     constexpr int draws = 60;

@@ -6,6 +6,7 @@
 #include "base/counter_random.h"
 #include "base/numbers.h"
 #include "device/virtual/ellipsometer_simulation.h"
+#include "fitter/fit.h"
 #include "materials/effective_medium.h"
 
 namespace drude {
@@ -28,6 +29,15 @@ inline Material anodised(double thickness_nm, double porosity,
     }
     material.layers = {layer};
     return material;
+}
+
+// The model "film" on what anodised() is made of.
+inline FitOptions anodised_options() {
+    FitOptions options;
+    options.model = "film";
+    options.film.substrate = published_set("Al-Rakic");
+    options.film.material = published_set("Al2O3-Malitson-o");
+    return options;
 }
 
 // 380 to 750 nm by 2 nm, noise of 0.05 and 0.1 degrees; seed 0 is noise-free.

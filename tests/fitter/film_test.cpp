@@ -16,26 +16,14 @@
 namespace drude {
 namespace {
 
-FitOptions film_options() {
-    FitOptions options;
-    options.model = "film";
-    options.film.substrate = published_set("Al-Rakic");
-    options.film.material = published_set("Al2O3-Malitson-o");
-    return options;
-}
-
 double value_of(const FitResult& fit, const std::string& name) {
-    for (const FittedParameter& parameter : fit.common) {
-        if (parameter.name == name) return parameter.value;
-    }
+    if (const FittedParameter* found = fit.find(name)) return found->value;
     ADD_FAILURE() << "no parameter " << name;
     return 0;
 }
 
 double sigma_of(const FitResult& fit, const std::string& name) {
-    for (const FittedParameter& parameter : fit.common) {
-        if (parameter.name == name) return parameter.sigma;
-    }
+    if (const FittedParameter* found = fit.find(name)) return found->sigma;
     ADD_FAILURE() << "no parameter " << name;
     return 0;
 }
@@ -61,7 +49,7 @@ TEST(Film, ReflectsWhatAnIndependentImplementationFinds) {
 TEST(Film, NoiseFreeDataGiveThicknessAndPorosityBack) {
     for (const double thickness : {20.0, 150.0, 420.0, 1000.0, 3000.0, 7500.0}) {
         const Measurement data = measured_film(thickness, 0.13, 0);
-        const FitResult fit = fit_measurement(data, film_options());
+        const FitResult fit = fit_measurement(data, anodised_options());
         EXPECT_NEAR(value_of(fit, "thickness"), thickness, 1e-4 * thickness);
         EXPECT_NEAR(value_of(fit, "porosity"), 0.13, 1e-4) << thickness;
         ASSERT_EQ(fit.layers.size(), 1u);
@@ -74,8 +62,8 @@ TEST(Film, RandomAnodisedFilmsAreRecovered) {
     int recovered = 0, within_3 = 0;
     for (uint64_t seed = 1; seed <= 40; ++seed) {
         const FilmCase film = random_film_case(seed);
-        const FitResult fit =
-            fit_measurement(measured_film(film.thickness_nm, film.porosity, seed), film_options());
+        const FitResult fit = fit_measurement(measured_film(film.thickness_nm, film.porosity, seed),
+                                              anodised_options());
         const double error = value_of(fit, "thickness") - film.thickness_nm;
         if (std::abs(error) < 0.005 * film.thickness_nm) ++recovered;
         if (std::abs(error) < 3 * sigma_of(fit, "thickness")) ++within_3;
@@ -91,9 +79,10 @@ TEST(Film, StandardDeviationsMatchAnIndependentImplementation) {
     SimulationSetup setup;
     setup.wavelengths_nm = parse_grid("380:750:1", "wavelengths");
     setup.angles_deg = {60};
-    const FitResult one = fit_measurement(simulate_ellipsometer(sample, setup), film_options());
+    const FitResult one = fit_measurement(simulate_ellipsometer(sample, setup), anodised_options());
     setup.angles_deg = {50, 60, 70};
-    const FitResult three = fit_measurement(simulate_ellipsometer(sample, setup), film_options());
+    const FitResult three =
+        fit_measurement(simulate_ellipsometer(sample, setup), anodised_options());
     EXPECT_NEAR(sigma_of(one, "thickness"), 0.6, 0.1);
     EXPECT_NEAR(sigma_of(one, "porosity"), 0.0003, 0.00006);
     EXPECT_NEAR(sigma_of(three, "thickness"), 0.037, 0.004);
@@ -103,18 +92,18 @@ TEST(Film, StandardDeviationsMatchAnIndependentImplementation) {
 }
 
 TEST(Film, TanSquaredPsiAloneFindsTheFilmToo) {
-    FitOptions options = film_options();
+    FitOptions options = anodised_options();
     options.estimator = "rho2";
     const Measurement data = measured_film(2500, 0.2, 3);
     const FitResult fit = fit_measurement(data, options);
-    const FitResult both = fit_measurement(data, film_options());
+    const FitResult both = fit_measurement(data, anodised_options());
     EXPECT_NEAR(value_of(fit, "thickness"), 2500, 5 * sigma_of(fit, "thickness"));
     EXPECT_GT(sigma_of(fit, "thickness"), sigma_of(both, "thickness"));
     EXPECT_EQ(fit.data * 2, both.data);
 }
 
 TEST(Film, FixedPorosityLeavesTheThickness) {
-    FitOptions options = film_options();
+    FitOptions options = anodised_options();
     options.film.porosity = 0.2;
     const FitResult fit = fit_measurement(measured_film(2500, 0.2, 3), options);
     ASSERT_EQ(fit.common.size(), 1u);
@@ -126,7 +115,7 @@ TEST(Film, FixedPorosityLeavesTheThickness) {
 // Least squares alone finds the minimum of the basin that it starts in, and no other.
 TEST(Film, AGivenStartTakesThePlaceOfTheSearch) {
     const Measurement data = measured_film(3000, 0.1, 1);
-    FitOptions options = film_options();
+    FitOptions options = anodised_options();
     const FitResult searched = fit_measurement(data, options);
     options.film.start = FilmGuess{3010, 0.11};
     const FitResult near = fit_measurement(data, options);
@@ -144,7 +133,7 @@ TEST(Film, AGivenStartTakesThePlaceOfTheSearch) {
 
 TEST(Film, ThreadsDoNotMoveABit) {
     const Measurement data = measured_film(1234, 0.3, 5);
-    FitOptions options = film_options();
+    FitOptions options = anodised_options();
     options.threads = 1;
     const FitResult one = fit_measurement(data, options);
     options.threads = 4;
@@ -155,7 +144,7 @@ TEST(Film, ThreadsDoNotMoveABit) {
 
 TEST(Film, TheMaterialReflectsWhatWasMeasured) {
     const Measurement data = measured_film(800, 0.25, 0);
-    const FitResult fit = fit_measurement(data, film_options());
+    const FitResult fit = fit_measurement(data, anodised_options());
     const Material material = fitted_material(fit, data, "anodised", {});
     EXPECT_EQ(material.substrate.name, "Al-Rakic");
     const Material back = parse_material(format_material(material), "film.json");
@@ -174,7 +163,7 @@ TEST(Film, TheMaterialReflectsWhatWasMeasured) {
 TEST(Film, AngleOffsetIsFoundFromThreeAngles) {
     Measurement data = measured_film(2000, 0.15, 9, {50, 60, 70});
     for (MeasurementRow& row : data.rows) row.angle_deg -= 0.08;  // the stage's zero is off
-    FitOptions options = film_options();
+    FitOptions options = anodised_options();
     const FitResult wrong = fit_measurement(data, options);
     options.fit_angle_offset = true;
     const FitResult right = fit_measurement(data, options);
@@ -206,10 +195,7 @@ TEST(Film, MeasuredOxideOnSilicon) {
 }
 
 TEST(Film, OtherSetsOfTheSubstrateMoveTheThickness) {
-    FitOptions options;
-    options.model = "film";
-    options.film.substrate = published_set("Al-Rakic");
-    options.film.material = published_set("Al2O3-Malitson-o");
+    const FitOptions options = anodised_options();
     const Measurement data = measured_film(1500, 0.1, 0);
     const FitResult fit = fit_measurement(data, options);
     const auto others = other_substrates(data, options, fit);
@@ -238,22 +224,22 @@ TEST(Film, RefusesWhatMakesNoSense) {
             EXPECT_NE(error.message().find(text), std::string::npos) << error.message();
         }
     };
-    FitOptions options = film_options();
+    FitOptions options = anodised_options();
     options.film.substrate = {};
     expect_user_error(options, "known substrate");
-    options = film_options();
+    options = anodised_options();
     options.estimator = "inversion";
     expect_user_error(options, "inversion");
-    options = film_options();
+    options = anodised_options();
     options.film.porosity = 1;
     expect_user_error(options, "porosity of 1");
-    options = film_options();
+    options = anodised_options();
     options.film.largest_thickness_nm = std::nan("");
     expect_user_error(options, "largest thickness");
-    options = film_options();
+    options = anodised_options();
     options.model = "bulk";
     expect_user_error(options, "'film'");
-    options = film_options();
+    options = anodised_options();
     options.first_nm = 900;
     expect_user_error(options, "spans 380");
 }
@@ -264,7 +250,7 @@ TEST(Film, AFilmThatIsItsSubstrateIsRefused) {
     SimulationSetup setup;
     setup.angles_deg = {60, 70};
     setup.wavelengths_nm = parse_grid("400:700:10", "wavelengths");
-    FitOptions options = film_options();
+    FitOptions options = anodised_options();
     options.film.material = options.film.substrate;
     options.film.porosity = 0;
     try {

@@ -54,10 +54,7 @@ TEST(ModelCurve, OfNoiseFreeDataIsTheData) {
     expect_same(model_curve(fit_measurement(tilted, offset), tilted), tilted, 2e-3);
 
     const Measurement film = measured_film(1200, 0.2, 0);
-    FitOptions film_options;
-    film_options.model = "film";
-    film_options.film.substrate = published_set("Al-Rakic");
-    film_options.film.material = published_set("Al2O3-Malitson-o");
+    FitOptions film_options = anodised_options();
     film_options.film.largest_thickness_nm = 2000;
     expect_same(model_curve(fit_measurement(film, film_options), film), film, 1e-4);
 }

@@ -14,10 +14,8 @@ namespace drude {
 namespace {
 
 FitOptions ladder_options() {
-    FitOptions options;
+    FitOptions options = anodised_options();
     options.model = "auto";
-    options.film.substrate = published_set("Al-Rakic");
-    options.film.material = published_set("Al2O3-Malitson-o");
     return options;
 }
 

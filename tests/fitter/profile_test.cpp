@@ -186,10 +186,7 @@ TEST(Profile, SameBitsForAnyNumberOfThreads) {
 
 TEST(Profile, OfAFilm) {
     const Measurement data = measured_film(1500, 0.1, 3);
-    FitOptions options;
-    options.model = "film";
-    options.film.substrate = published_set("Al-Rakic");
-    options.film.material = published_set("Al2O3-Malitson-o");
+    FitOptions options = anodised_options();
     options.film.largest_thickness_nm = 3000;
     const FitResult thick = fit_measurement(data, options);
     const ProfileResult closed = profile_likelihood(data, options, thick);

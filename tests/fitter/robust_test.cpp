@@ -104,10 +104,7 @@ TEST(Robust, AnAngleOffsetToo) {
 TEST(Robust, AFilmToo) {
     Measurement data = measured_film(2500, 0.15, 11);
     spoil(&data);
-    FitOptions options;
-    options.model = "film";
-    options.film.substrate = published_set("Al-Rakic");
-    options.film.material = published_set("Al2O3-Malitson-o");
+    FitOptions options = anodised_options();
     options.film.largest_thickness_nm = 4000;
     const FitResult plain = fit_measurement(data, options);
     EXPECT_GT(plain.chi2_reduced(), 50);
