@@ -55,24 +55,29 @@ TEST(SmallLeastSquares, NormalEquationsAndTheirInverse) {
     EXPECT_FALSE(solve_normal_equations(2, singular, none));
 }
 
-TEST(WavelengthBins, ALineIsReadAtTheCentreAndAMeanWhereItCannotBe) {
-    const std::vector<double> nm = {498, 499.4, 500.2, 501, 502.4, 503};
+TEST(WavelengthBins, AParabolaIsReadAtTheCentreAndAMeanWhereItCannotBe) {
+    const std::vector<double> nm = {497.6, 498.3, 499.4, 500.2, 501, 501.8, 502.4, 503};
+    double bend = 0.5;
     const auto value = [&](const BinShares& shares) {
         double sum = 0, one = 0;
         for (size_t i = 0; i < shares.pixel.size(); ++i) {
-            sum += shares.share[i] * (7 + 3 * nm[shares.pixel[i]]);
+            const double x = nm[shares.pixel[i]] - 500;
+            sum += shares.share[i] * (7 + 3 * x + bend * x * x);
             one += shares.share[i];
         }
-        EXPECT_NEAR(one, 1, 1e-14);
+        EXPECT_NEAR(one, 1, 1e-13);
         return sum;
     };
-    const BinShares all = bin_shares(nm, {1, 4, 2, 1, 3, 1}, 500, 5);
-    EXPECT_EQ(all.pixel.size(), 5u);  // 503 is beyond
-    EXPECT_NEAR(value(all), 7 + 3 * 500, 1e-10);
+    const BinShares all = bin_shares(nm, {1, 2, 3, 2, 1, 2, 2, 1}, 500, 5);
+    EXPECT_EQ(all.pixel.size(), 7u);  // 503 is beyond
+    EXPECT_NEAR(value(all), 7, 1e-11);
+    bend = 0;
+    // Four in the middle: a line.
+    EXPECT_NEAR(value(bin_shares(nm, {0, 1, 1, 1, 1, 0, 0, 1}, 500, 5)), 7, 1e-12);
     // On one side only: the mean of what is there.
-    EXPECT_NEAR(value(bin_shares(nm, {0, 0, 0, 1, 1, 1}, 500, 5)), 7 + 3 * 501.7, 1e-10);
-    EXPECT_TRUE(bin_shares(nm, {1, 1, 1, 1, 1, 1}, 600, 5).pixel.empty());
-    EXPECT_TRUE(bin_shares(nm, {0, 0, 0, 0, 0, 0}, 500, 5).pixel.empty());
+    EXPECT_NEAR(value(bin_shares(nm, {0, 0, 0, 0, 1, 1, 1, 1}, 500, 5)), 7 + 3 * 5.2 / 3, 1e-11);
+    EXPECT_TRUE(bin_shares(nm, {1, 1, 1, 1, 1, 1, 1, 1}, 600, 5).pixel.empty());
+    EXPECT_TRUE(bin_shares(nm, {0, 0, 0, 0, 0, 0, 0, 0}, 500, 5).pixel.empty());
 }
 
 }  // namespace
