@@ -26,9 +26,10 @@ using FaultInjection = std::function<void(uint64_t transfer, const char* part)>;
 //
 // Exposures are numbered for VirtualOptics::frame() from 0 each time a part is moved (wherever to),
 // the lamp switched or the integration time changed. The first frame handed out after that, or
-// after recover() or reconnect(), has no such number, nor has one that began earlier: these are the
-// frames that a measurement discards. So the frames that it keeps are the same when it is repeated,
-// however many it discarded. Throws as VirtualOptics does.
+// after recover() or reconnect(), has no such number, nor has one that may have begun earlier as
+// far as a host can tell (earliest_begin()): these are the frames that acquire_fresh() discards. So
+// the frames that it keeps are the same when it is repeated, however many it discarded. Throws as
+// VirtualOptics does.
 Bench make_virtual_bench(const Material& sample, const VirtualBenchSettings& settings,
                          FaultInjection faults = {});
 

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
+#include "device/sweep/fresh_frame.h"
 #include "device/virtual/free_run.h"
 #include "device/virtual/virtual_parts.h"
 
@@ -58,9 +59,11 @@ class VirtualSpectrometer : public Spectrometer {
         const double wait_s = run_.next().end_s() - frame.requested_s;
         if (wait_s > 0) rig_->clock()->sleep(wait_s);
         const FreeRun::Exposure exposure = run_.hand_out(rig_->clock()->now());
-        frame.counts = counts_of(exposure);
         rig_->clock()->sleep(info_.readout_s);
         frame.arrived_s = rig_->clock()->now();
+        frame.counts = counts_of(exposure, earliest_begin(frame, requested_before_s_,
+                                                          exposure.integration_s, info_.readout_s));
+        requested_before_s_ = frame.requested_s;
         return frame;
     }
 
@@ -86,13 +89,13 @@ class VirtualSpectrometer : public Spectrometer {
         first_ = true;
     }
 
-    std::vector<uint32_t> counts_of(const FreeRun::Exposure& exposure) {
+    std::vector<uint32_t> counts_of(const FreeRun::Exposure& exposure, double earliest_s) {
         if (entries_ != rig_->entries()) {
             entries_ = rig_->entries();
             first_ = true;
             fresh_ = discarded_ = 0;
         }
-        const bool fresh = !std::exchange(first_, false) && exposure.start_s >= rig_->entered_s();
+        const bool fresh = !std::exchange(first_, false) && earliest_s >= rig_->entered_s();
         const std::vector<ExposurePart> parts = rig_->between(exposure.start_s, exposure.end_s());
         if (fresh) {
             return rig_->optics().frame(rig_->state(), exposure.integration_s, exposure.start_s,
@@ -104,6 +107,7 @@ class VirtualSpectrometer : public Spectrometer {
     std::shared_ptr<VirtualRig> rig_;
     SpectrometerInfo info_;
     FreeRun run_{0, 0.1};
+    double requested_before_s_ = 0;
     uint64_t entries_ = 0, fresh_ = 0, discarded_ = 0;
     bool first_ = true;
 };
