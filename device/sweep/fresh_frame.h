@@ -1,0 +1,32 @@
+// Frames that began after the bench stood still.
+#pragma once
+
+#include <functional>
+
+#include "device/bench_clock.h"
+#include "device/spectrometer.h"
+
+namespace drude {
+
+struct FreshFrame {
+    Frame frame;
+    int discarded = 0;  // frames that were thrown away before it, at least one
+};
+
+// The earliest time at which a frame can have begun, where the frame before it was asked for at
+// `requested_before_s`. Its exposure ran or began when that one left the buffer. Where the detector
+// was waited for, longer than a readout takes, it did not lie in the buffer itself, and arrival
+// less integration time less readout holds too.
+double earliest_begin(const Frame& frame, double requested_before_s, double integration_s,
+                      double readout_s);
+
+// A spectrometer that runs freely and buffers twice hands out, after a move or a new integration
+// time, a frame that began before it (python-seabreeze issues 110 and 177). The first frame is
+// always discarded, since nothing says how long it lay in the buffer, and so is every one that can
+// have begun before `settled_s` of the bench's clock (earliest_begin()).
+// At most 8 are; then throws DeviceError (bad frame). `between` runs before each frame and may
+// throw, e.g. where a signal arrived.
+FreshFrame acquire_fresh(Spectrometer& spectrometer, double settled_s,
+                         const std::function<void()>& between = {});
+
+}  // namespace drude
