@@ -76,7 +76,7 @@ TEST(ObpMessage, EveryDamagedByteUnderAChecksumIsSeen) {
     const Bytes good = format_obp_message(message, true);
     for (size_t i = 0; i < good.size(); ++i) {
         if (i == 22) continue;  // the kind of checksum itself: 0 would mean none
-        for (const uint8_t flip : {0x01, 0x80}) {
+        for (const int flip : {0x01, 0x80}) {
             Bytes bad = good;
             bad[i] = static_cast<uint8_t>(bad[i] ^ flip);
             EXPECT_THROW(parse_obp_message(bad, "it"), DeviceError) << i;
