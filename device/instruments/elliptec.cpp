@@ -51,8 +51,9 @@ std::shared_ptr<ElliptecBus> ElliptecBus::of(const std::shared_ptr<UsbPort>& por
 }
 
 void ElliptecBus::send(char address, std::string_view command) {
-    // What was received and not asked for belongs to an earlier question.
-    if (line_.discard_received() > 0) ++dropped_;
+    // What is there before it is asked for belongs to an earlier question. The chip hands over
+    // within its latency time of 2 ms what it holds.
+    if (line_.drain(0.004, deadline_in(0.1)) > 0) ++dropped_;
     line_.write(address + std::string(command), deadline_in(1));
 }
 

@@ -72,12 +72,6 @@ void ScpiLink::check_errors(const std::string& about) {
     }
 }
 
-std::string ScpiLink::ask(const std::string& question, double seconds) {
-    const std::string answer = without_line_end(ask_once(question, seconds));
-    check_errors(question);
-    return answer;
-}
-
 std::vector<double> ScpiLink::ask_numbers(const std::string& question, double seconds) {
     // A block of floats may end in a byte that looks like the end of a line.
     const std::string answer = ask_once(question, seconds);
