@@ -22,6 +22,7 @@
 #include "usb_bench/client.h"
 #include "usb_bench/elliptec_bus.h"
 #include "usb_bench/ooi_device.h"
+#include "usb_bench/tmc_device.h"
 #include "usb_bench/usb_testbed.h"
 
 namespace drude::usb_bench {
@@ -41,6 +42,9 @@ std::unique_ptr<VirtualDevice> make_device(const DeviceOption& option, double mo
     if (option.scheme == "apt-sample" || option.scheme == "apt-arm") {
         const Role role = option.scheme == "apt-arm" ? Role::detector_arm : Role::sample_stage;
         return std::make_unique<AptMount>(option.serial, role, move_s, bench, faults);
+    }
+    if (option.scheme == "usbtmc") {
+        return std::make_unique<TmcDevice>(option.serial, bench.optics().sample(), faults);
     }
     user_error("--device: no model of '{}'", option.scheme);
 }
