@@ -21,6 +21,7 @@
 #include "usb_bench/bench_options.h"
 #include "usb_bench/client.h"
 #include "usb_bench/elliptec_bus.h"
+#include "usb_bench/obp_device.h"
 #include "usb_bench/ooi_device.h"
 #include "usb_bench/tmc_device.h"
 #include "usb_bench/usb_testbed.h"
@@ -34,6 +35,7 @@ constexpr int left_something = 125, hung = 124;
 std::unique_ptr<VirtualDevice> make_device(const DeviceOption& option, double move_s,
                                            OpticalBench& bench, FaultPlan& faults) {
     if (option.scheme == "ooi") return std::make_unique<OoiDevice>(option.serial, bench, faults);
+    if (option.scheme == "obp") return std::make_unique<ObpDevice>(option.serial, bench, faults);
     if (option.scheme == "ell") {
         return std::make_unique<ElliptecBus>(
             option.serial, std::vector<Role>{Role::polariser, Role::analyser, Role::retarder},
@@ -112,6 +114,11 @@ int work(const BenchOptions& options) {
     FaultPlan faults;
     for (const PlannedFault& fault : options.faults) faults.add(fault);
     OpticalBench optics(find_material(options.material), options.settings, options.frozen_noise);
+    bool has_arms = false;
+    for (const DeviceOption& device : options.devices) {
+        has_arms = has_arms || device.scheme == "apt-sample";
+    }
+    if (!has_arms) optics.fix_arms(options.incidence_deg);
     std::vector<std::unique_ptr<VirtualDevice>> devices;
     for (const DeviceOption& device : options.devices) {
         devices.push_back(make_device(device, options.move_s, optics, faults));
