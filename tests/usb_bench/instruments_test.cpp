@@ -99,8 +99,8 @@ TEST(Instruments, HeadGivesPsiAndDeltaOfTheSample) {
                                       "{client} head usbtmc:1209:5e11:TMC0001 65");
     ASSERT_EQ(run.status, 0) << run.err;
     const std::vector<std::string> printed = lines(run.out);
-    const Measurement truth = simulate_ellipsometer(
-        find_material("Au-McPeak"), {{65}, {380, 390, 780}, 0, 0, 1});
+    const Measurement truth =
+        simulate_ellipsometer(find_material("Au-McPeak"), {{65}, {380, 390, 780}, 0, 0, 1});
     ASSERT_EQ(printed.size(), 42U);
     std::istringstream last(printed.back());
     double nm = 0, psi = 0, delta = 0;
@@ -120,9 +120,9 @@ TEST(Instruments, ALostSyncByteIsNotAFrame) {
     const int last = clean.report["answers"].get<int>() - 1;
     ASSERT_NE(lines(read_text(folder.file("answers.txt"))).back().find("other part"),
               std::string::npos);
-    const BenchRun run = run_on_bench(folder,
-                                      "--device ooi:SN1 --fault sync@" + std::to_string(last),
-                                      "{client} spectrometer ooi:SN1 0.002");
+    const BenchRun run =
+        run_on_bench(folder, "--device ooi:SN1 --fault sync@" + std::to_string(last),
+                     "{client} spectrometer ooi:SN1 0.002");
     EXPECT_EQ(run.status, 3);
     EXPECT_EQ(run.report["faults_applied"], 1);
     EXPECT_NE(run.err.find("ooi:SN1"), std::string::npos) << run.err;
