@@ -203,10 +203,14 @@ double AptRotator::move_to(double degrees) {
     command.id = apt::move_absolute;
     command.data = {channel, 0};
     append(&command.data, k10cr1_microsteps(degrees));
-    // A whole turn, whichever way it goes, with ramps at both ends.
-    const double seconds =
-        360 / options_.degrees_per_s + 2 * options_.degrees_per_s / options_.degrees_per_s2;
     for (int attempt = 0;; ++attempt) {
+        // It goes straight to a count of microsteps, over as many turns as that takes, with ramps
+        // at both ends.
+        drop_late();
+        const double microsteps =
+            std::abs(static_cast<double>(k10cr1_microsteps(degrees) - ask_status().position));
+        const double seconds = microsteps / info_.units_per_degree / options_.degrees_per_s +
+                               2 * options_.degrees_per_s / options_.degrees_per_s2;
         const AptStatus status = run(command, apt::move_completed, seconds);
         const double at = k10cr1_degrees(status.position);
         const double off = std::remainder(at - degrees, 360);

@@ -37,6 +37,7 @@ class ScpiLink {
   private:
     void start();
     std::string ask_once(const std::string& question, double seconds);
+    std::string queued_errors();
     void check_errors(const std::string& about);
 
     Usbtmc tmc_;

@@ -22,7 +22,7 @@ double earliest_begin(const Frame& frame, double requested_before_s, double inte
 }
 
 FreshFrame acquire_fresh(Spectrometer& spectrometer, double settled_s,
-                         const std::function<void()>& between) {
+                         const std::function<void()>& between, int least) {
     FreshFrame fresh;
     double before_s = -std::numeric_limits<double>::infinity();
     for (;;) {
@@ -31,7 +31,7 @@ FreshFrame acquire_fresh(Spectrometer& spectrometer, double settled_s,
         const double begun_s = earliest_begin(
             fresh.frame, before_s, spectrometer.integration_time(), spectrometer.info().readout_s);
         before_s = fresh.frame.requested_s;
-        if (fresh.discarded > 0 && begun_s >= settled_s) return fresh;
+        if (fresh.discarded >= least && begun_s >= settled_s) return fresh;
         if (++fresh.discarded > most_discarded) {
             device_error(Fault::bad_frame,
                          "{}: {} frames in a row arrived sooner than an integration time of {} s "

@@ -244,6 +244,23 @@ TEST_F(ScpiHeadTest, AHungQuestionThenTheRightAnswer) {
     EXPECT_EQ(head->measure(70).size(), 3u);
 }
 
+// What an instrument does with a question that it does not know: nothing but a note in its queue.
+TEST_F(ScpiHeadTest, AnUnknownQuestionIsExplainedByTheQueue) {
+    ScpiCommands commands;
+    commands.psi_delta = "READ:PSI?";
+    const std::shared_ptr<PsiDeltaHead> head = open_scpi_head(head_.port, commands);
+    const auto queue = head_.otherwise;
+    head_.otherwise = [&](const std::string& question) {
+        if (question == "READ:PSI?") errors_.push_back("-113,\"Undefined header\"\n");
+        return queue(question);
+    };
+    std::string message;
+    EXPECT_EQ(fault_of([&] { head->measure(70); }, &message), Fault::timeout);
+    EXPECT_NE(message.find("'READ:PSI?' within 300 s; it reports error -113, Undefined header"),
+              std::string::npos)
+        << message;
+}
+
 TEST_F(ScpiHeadTest, FloatsInBlocks) {
     ScpiCommands commands;
     commands.format = ScpiFormat::real64;
