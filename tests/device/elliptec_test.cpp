@@ -150,7 +150,9 @@ TEST(Elliptec, AnswersOfOthersAndLateOnesAreDropped) {
     EXPECT_EQ(mount->answers_dropped(), before + 3);
     // Only an answer of another mount: that is no answer.
     bus.queue("0gp", "1PO00001111");
-    EXPECT_EQ(fault_of([&] { mount->position(); }), Fault::timeout);
+    std::string message;
+    EXPECT_EQ(fault_of([&] { mount->position(); }, &message), Fault::timeout);
+    EXPECT_NE(message.find("'0gp'"), std::string::npos) << message;
     // Answers that are there before the question are not taken for its answer.
     const int dropped = mount->answers_dropped();
     bus.say("0PO00008C00");
