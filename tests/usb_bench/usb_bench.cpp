@@ -175,6 +175,7 @@ int work(const BenchOptions& options) {
             {
                 const std::lock_guard guard(bed.lock());
                 faults.clear();
+                for (const auto& device : devices) device->repair();
             }
             bed.plug_all_in();
         }
