@@ -16,9 +16,9 @@ namespace drude {
 //
 // Without a sample Psi is 45 and Delta 0, so that a scan is (1 + s.p)(1 + D cos 2(P - A)): four
 // unknowns of each wavelength, fitted to alpha and beta of the zones. The retarder is then a sample
-// of tan Psi = t and Delta = d, of which cos d is seen: the bench has its fast axis along p, so d
-// is taken in (0, 180) degrees. An azimuth between them of e degrees is one of the retarder's axis
-// too, which costs cos d second order in e where the zones are opposite.
+// of tan Psi = t and Delta = d, of which cos d is seen: as the bench has its fast axis along p, d
+// is taken in (0, 180) degrees. Until the plane of incidence is known its axis is taken to stand at
+// the analyser's zero; opposite zones make the error of that second order.
 //
 // Throws Error (user) for scans with a sample and for zones that are parallel or crossed, Error
 // (answer_is_no) where no wavelength follows that shape.

@@ -21,7 +21,7 @@ namespace drude {
 
 struct BinScan {
     BinnedFit fit;
-    double analyser_rad = 45;  // from p, offset taken off; not along p or s
+    double analyser_rad = 0;  // from p, offset taken off; not along p or s
     bool retarder_in = false;
     int dark = 0;  // scans with the same number share their dark, and its noise
 };

@@ -27,6 +27,32 @@ Covariance jitter_covariance(const ScanFit& fit, double alpha, double beta) {
     return sum;
 }
 
+// Shares by which a polynomial fitted to values at x has its value at 0. False where that would
+// have more than `most` times the variance of the mean, as with few points or points on one side.
+bool polynomial_shares(const std::vector<double>& x, const std::vector<double>& weight, int degree,
+                       double most, std::vector<double>* share) {
+    const int n = degree + 1;
+    if (x.size() < static_cast<size_t>(2 * degree + 1)) return false;
+    double moments[9] = {}, at_centre[3] = {1, 0, 0}, sum = 0;
+    for (size_t i = 0; i < x.size(); ++i) {
+        const double power[3] = {1, x[i], x[i] * x[i]};
+        for (int a = 0; a < n; ++a) {
+            for (int b = 0; b < n; ++b) moments[a * n + b] += weight[i] * power[a] * power[b];
+        }
+        sum += weight[i];
+    }
+    if (!solve_normal_equations(n, moments, at_centre)) return false;
+    share->resize(x.size());
+    double variance = 0;
+    for (size_t i = 0; i < x.size(); ++i) {
+        const double factor = at_centre[0] + (n > 1 ? at_centre[1] * x[i] : 0) +
+                              (n > 2 ? at_centre[2] * x[i] * x[i] : 0);
+        (*share)[i] = weight[i] * factor;
+        variance += weight[i] * factor * factor;
+    }
+    return variance * sum <= most;
+}
+
 void scale(Covariance* covariance, double factor) {
     covariance->aa *= factor;
     covariance->ab *= factor;
@@ -41,23 +67,18 @@ BinShares bin_shares(const std::vector<double>& wavelength_nm, const std::vector
     const auto first =
         std::lower_bound(wavelength_nm.begin(), wavelength_nm.end(), centre_nm - step_nm / 2) -
         wavelength_nm.begin();
-    double s0 = 0, s1 = 0, s2 = 0;
+    std::vector<double> x, weight;
     for (auto j = static_cast<size_t>(first);
          j < wavelength_nm.size() && wavelength_nm[j] < centre_nm + step_nm / 2; ++j) {
         if (!(weights[j] > 0)) continue;
-        const double x = wavelength_nm[j] - centre_nm;
         result.pixel.push_back(j);
-        result.share.push_back(weights[j]);
-        s0 += weights[j];
-        s1 += weights[j] * x;
-        s2 += weights[j] * x * x;
+        x.push_back((wavelength_nm[j] - centre_nm) / (step_nm / 2));
+        weight.push_back(weights[j]);
     }
-    const double mean = s1 / s0, spread = s2 / s0 - mean * mean;
-    // Reading the line outside its middle half costs noise; a bin that is cut off keeps its mean.
-    const bool line = result.pixel.size() >= 4 && mean * mean < 0.25 * spread;
-    for (size_t i = 0; i < result.pixel.size(); ++i) {
-        const double x = wavelength_nm[result.pixel[i]] - centre_nm;
-        result.share[i] *= line ? (1 - mean * (x - mean) / spread) / s0 : 1 / s0;
+    // Even pixels cost a parabola 9/4 of the mean's variance, and a line nothing.
+    if (!polynomial_shares(x, weight, 2, 3, &result.share) &&
+        !polynomial_shares(x, weight, 1, 1.25, &result.share)) {
+        polynomial_shares(x, weight, 0, 1.5, &result.share);
     }
     return result;
 }

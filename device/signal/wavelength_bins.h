@@ -14,9 +14,10 @@ struct BinShares {
 };
 
 // Pixels within half a step of `centre_nm`, `weights` (> 0 where a pixel is of use) as many as
-// pixels. A line fitted over the bin is read at its centre, so that the lamp's slope and a bin that
-// pixels do not fill evenly shift nothing; where the pixels are too few or on one side, the mean.
-// Empty where no pixel is of use.
+// pixels. A parabola fitted over the bin is read at its centre (Savitzky & Golay 1964, Anal. Chem.
+// 36, 1627), so that neither the spectrum's slope and bend nor a bin that pixels do not fill evenly
+// shift anything; its value is as noisy as the mean of 4/9 of the pixels. Where these are too few
+// or on one side, a line, and at last the mean. Empty where no pixel is of use.
 BinShares bin_shares(const std::vector<double>& wavelength_nm, const std::vector<double>& weights,
                      double centre_nm, double step_nm);
 
