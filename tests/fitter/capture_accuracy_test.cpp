@@ -8,7 +8,6 @@
 #include <cstdio>
 
 #include "fitter/fit.h"
-#include "fitter/lobe_fit.h"
 #include "fitter/virtual_sweep.h"
 #include "materials/surface.h"
 
@@ -216,49 +215,6 @@ TEST(CaptureAccuracyOfOrdinaryParts, WhatIsLeftIsTheStatedNoise) {
         EXPECT_EQ(got.measurement.rows.size(), 486u);
         EXPECT_NEAR(got.pull2_psi, 1, 4 * std::sqrt(2.0 / 486)) << name;
         EXPECT_NEAR(got.pull2_delta, 1, 4 * std::sqrt(2.0 / 486)) << name;
-    }
-}
-
-// The study's rough samples: the lobe that a sample has is named and its beta found.
-TEST(CaptureAccuracyOfLobes, ScansNameTheLobeAndRecoverBeta) {
-    for (const Lobe lobe : {Lobe::beckmann, Lobe::trowbridge_reitz}) {
-        Material rough = find_material("Cu-McPeak");
-        rough.lobe = lobe;
-        rough.masking = Masking::v_groove;
-        rough.beta = 0.15;
-        VirtualBenchSettings settings;
-        settings.seed = 3;
-        settings.pixels = 105;
-        settings.relative_noise = 5e-3;
-        settings.read_noise_counts = 5;
-        settings.dark_counts = 1500;  // so that noise is not cut off at 0
-        Recipe recipe = default_recipe(RecipeKind::lobe);
-        recipe.sample = rough.name;
-        recipe.angles_deg = {60};
-        recipe.offsets_deg.clear();
-        for (int offset = -30; offset <= 24; offset += 2) recipe.offsets_deg.push_back(offset);
-        recipe.detector_half_angle_deg = settings.detector_half_angle_deg;
-        recipe.detector_solid_angle_sr =
-            2 * pi * (1 - std::cos(settings.detector_half_angle_deg * degree));
-        recipe.first_nm = 500;
-        recipe.last_nm = 700;
-        recipe.step_nm = 5;
-        const JournalReduction reduced = sweep_and_reduce(rough, settings, recipe);
-        const LobeFitResult fit =
-            fit_lobes(parse_lobe_scan(reduced.text, "scan"), find_material("Cu-McPeak"));
-        std::printf(
-            "%s: %s, beta %.5f +- %.5f of 0.15, chi-square %.0f with %d degrees of freedom, next "
-            "%s %.0f\n",
-            std::string(lobe_name(lobe)).c_str(), std::string(lobe_name(fit.lobes[0].lobe)).c_str(),
-            fit.lobes[0].beta, fit.lobes[0].sigma_beta, fit.lobes[0].chi2, fit.dof(),
-            std::string(lobe_name(fit.lobes[1].lobe)).c_str(), fit.lobes[1].chi2);
-        for (const std::string& warning : reduced.warnings) std::printf("  %s\n", warning.c_str());
-        EXPECT_EQ(fit.lobes[0].lobe, lobe);
-        EXPECT_FALSE(fit.lobes[1].tied);
-        EXPECT_NEAR(fit.lobes[0].beta, 0.15, 4 * fit.lobes[0].sigma_beta);
-        EXPECT_LT(fit.lobes[0].sigma_beta, 0.002);
-        // The noise is known as well as the scatter of the scan's own frames tells.
-        EXPECT_NEAR(fit.lobes[0].chi2 / fit.dof(), 1, 0.25);
     }
 }
 
