@@ -36,6 +36,7 @@ struct ExposureChoice {
 // Throws Error (outside) where the brightest setting stays dark (less than limits.least_signal) at
 // the longest time, or reads its maximum at the shortest; DeviceError as the parts do.
 ExposureChoice choose_exposure(BenchDriver& driver, const Bench& bench,
-                               const std::vector<PlanPoint>& points, const ExposureLimits& limits);
+                               const std::vector<PlanPoint>& points,
+                               const ExposureLimits& limits = {});
 
 }  // namespace drude
