@@ -56,18 +56,18 @@ Accuracy measure(const Material& metal, const VirtualBenchSettings& settings,
     result.warnings = reduced.warnings;
     const auto count = static_cast<double>(reduction.rows.size());
     for (const MeasurementRow& row : reduction.rows) {
-        const Angles truth = true_angles(metal, pixels_nm, row.wavelength_nm, row.angle_deg, 5);
+        const Angles truth =
+            true_angles(metal, {row.wavelength_nm}, row.wavelength_nm, row.angle_deg, 5);
         const double error_psi = row.psi_deg - truth.psi_deg;
         const double error_delta = std::remainder(row.delta_deg - truth.delta_deg, 360.0);
         result.worst_psi = std::max(result.worst_psi, std::abs(error_psi));
         result.worst_delta = std::max(result.worst_delta, std::abs(error_delta));
         result.pull2_psi += std::pow(error_psi / row.sigma_psi_deg, 2) / count;
         result.pull2_delta += std::pow(error_delta / row.sigma_delta_deg, 2) / count;
-        const Angles centre =
-            true_angles(metal, {row.wavelength_nm}, row.wavelength_nm, row.angle_deg, 5);
-        result.width_psi = std::max(result.width_psi, std::abs(truth.psi_deg - centre.psi_deg));
+        const Angles mean = true_angles(metal, pixels_nm, row.wavelength_nm, row.angle_deg, 5);
+        result.width_psi = std::max(result.width_psi, std::abs(truth.psi_deg - mean.psi_deg));
         result.width_delta =
-            std::max(result.width_delta, std::abs(truth.delta_deg - centre.delta_deg));
+            std::max(result.width_delta, std::abs(truth.delta_deg - mean.delta_deg));
     }
     return result;
 }
@@ -146,7 +146,8 @@ TEST(CaptureAccuracyWithoutNoise, RoundingToCountsAndTheWidthOfBinsLeaveLittle) 
                 "bin against its centre %.4f, %.4f deg\n",
                 name, pixels, got.worst_psi, got.worst_delta, got.width_psi, got.width_delta);
             EXPECT_LE(got.worst_psi, 0.025) << name;
-            EXPECT_LE(got.worst_delta, 0.04) << name;
+            // Against the value at the centre: gold's table has a kink there.
+            EXPECT_LE(got.worst_delta, 0.05) << name;
         }
     }
 }
