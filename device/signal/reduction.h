@@ -19,6 +19,8 @@ struct ReductionOptions {
     double mount_repeatability_deg = 0;
     // The same of the analyser's mount, which moves once a scan.
     double analyser_repeatability_deg = 0;
+    // Of lobe scans: systematic error of a reflectance over its value, part of its sigma.
+    double relative_floor = 0;
 };
 
 // What a scan says about the bench, the mean over the wavelengths that were used.

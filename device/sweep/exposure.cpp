@@ -12,8 +12,7 @@ namespace drude {
 namespace {
 
 constexpr double lowest_peak = 0.70, target_peak = 0.775, highest_peak = 0.85;
-constexpr double first_try_s = 0.01, longest_s = 5;
-constexpr double least_signal = 0.02;  // of max_counts, below which nothing is modelled
+constexpr double first_try_s = 0.01;
 constexpr int most_adjustments = 24;
 
 bool same_arms(const PlanPoint& a, const PlanPoint& b) {
@@ -23,7 +22,8 @@ bool same_arms(const PlanPoint& a, const PlanPoint& b) {
 
 class ExposureSearch {
   public:
-    ExposureSearch(BenchDriver& driver, const Bench& bench, const std::vector<PlanPoint>& points)
+    ExposureSearch(BenchDriver& driver, const Bench& bench, const std::vector<PlanPoint>& points,
+                   const ExposureLimits& limits)
         : driver_(driver),
           info_(bench.spectrometer->info()),
           name_(bench.name),
@@ -31,7 +31,8 @@ class ExposureSearch {
           points_(points),
           max_(info_.max_counts),
           shortest_s_(info_.shortest_s),
-          longest_s_(std::min(longest_s, info_.longest_s)),
+          longest_s_(std::min(limits.longest_s, info_.longest_s)),
+          least_signal_(limits.least_signal),
           integration_s_(std::clamp(first_try_s, shortest_s_, longest_s_)) {}
 
     ExposureChoice search() {
@@ -75,11 +76,11 @@ class ExposureSearch {
             if (reading.peak >= 1) {
                 if (integration_s_ <= shortest_s_) too_bright();
                 integration_s_ = std::max(shortest_s_, integration_s_ / 4);
-            } else if (reading.peak - reading.level < least_signal && integration_s_ < longest_s_ &&
-                       !seen_) {
+            } else if (reading.peak - reading.level < least_signal_ &&
+                       integration_s_ < longest_s_ && !seen_) {
                 integration_s_ = std::min(longest_s_, integration_s_ * 4);
             } else {
-                seen_ = seen_ || reading.peak - reading.level >= least_signal;
+                seen_ = seen_ || reading.peak - reading.level >= least_signal_;
                 return reading;
             }
             *changed = true;
@@ -139,9 +140,11 @@ class ExposureSearch {
         });
     }
 
+    // Of a lobe scan s and p only are read, in which the analyser may follow the polariser.
     bool steps_in_one_scan() const {
+        const PlanPoint& first = points_.front();
         return std::count_if(points_.begin(), points_.end(), [&](const PlanPoint& point) {
-                   return point.scan == points_.front().scan;
+                   return point.scan == first.scan && point.analyser_deg == first.analyser_deg;
                }) > 2;
     }
 
@@ -212,7 +215,7 @@ class ExposureSearch {
             if (next == integration_s_) break;
             integration_s_ = next;
         }
-        if (reading.peak - reading.level < least_signal) too_dark(reading);
+        if (reading.peak - reading.level < least_signal_) too_dark(reading);
         if (reading.peak < lowest_peak) {
             warnings_.push_back(fmt::format(
                 "at the longest integration time used, {} s, the brightest setting reads {:.0f} % "
@@ -243,7 +246,9 @@ class ExposureSearch {
     const std::string& name_;
     bool by_hand_;
     const std::vector<PlanPoint>& points_;
-    double max_, shortest_s_, longest_s_, integration_s_;
+    double max_, shortest_s_, longest_s_;
+    double least_signal_;  // of max_counts, below which nothing is modelled
+    double integration_s_;
     bool seen_ = false;
     PlanPoint brightest_;
     std::vector<std::string> warnings_;
@@ -251,9 +256,18 @@ class ExposureSearch {
 
 }  // namespace
 
+ExposureLimits exposure_limits(const Recipe& recipe) {
+    ExposureLimits limits;
+    if (recipe.kind == RecipeKind::lobe) {
+        limits.longest_s = recipe.longest_integration_s;
+        limits.least_signal = 0.002;
+    }
+    return limits;
+}
+
 ExposureChoice choose_exposure(BenchDriver& driver, const Bench& bench,
-                               const std::vector<PlanPoint>& points) {
-    return ExposureSearch(driver, bench, points).search();
+                               const std::vector<PlanPoint>& points, const ExposureLimits& limits) {
+    return ExposureSearch(driver, bench, points, limits).search();
 }
 
 }  // namespace drude

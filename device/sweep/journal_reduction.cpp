@@ -26,6 +26,7 @@ ReductionOptions reduction_options(const JournalHeader& header,
     result.drift = recipe.drift;
     result.mount_repeatability_deg = header.mount_repeatability_deg;
     result.analyser_repeatability_deg = header.analyser_repeatability_deg;
+    result.relative_floor = recipe.kind == RecipeKind::lobe ? recipe.relative_floor : 0;
     return result;
 }
 

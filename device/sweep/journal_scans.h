@@ -18,7 +18,11 @@ namespace drude {
 std::vector<Scan> scans_of(const Journal& journal, const NoiseModel& noise,
                            std::vector<std::string>* warnings);
 
-// The same of a lobe scan: what was measured so far, straight-through readings first.
+// The same of a lobe scan: what was measured so far, positions of which not everything was read
+// left out. The variance is that of the noise model of the readings' own group where it has frames
+// to tell it by, `noise` otherwise. Darks of one integration time are one pattern, of which the
+// mean of all has the least noise, and a level of each part of the scan; a dark whose pattern
+// differs by more than noise stands for itself. Times of several sessions follow each other.
 std::vector<LobeReading> lobe_readings_of(const Journal& journal, const NoiseModel& noise,
                                           std::vector<std::string>* warnings);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -171,18 +172,18 @@ void add_half_turn(const JournalPoint& a, const JournalPoint& b, const std::vect
     }
 }
 
-}  // namespace
-
-double NoiseModel::variance(double net_counts) const {
-    const double net = std::max(0.0, net_counts);
-    return std::max(rounding_variance, read + photon * net + relative * net * net);
-}
-
-NoiseModel fit_noise_model(const Journal& journal) {
+// Of the blocks whose points `wanted` takes: all points of a block are of one group.
+template <class Wanted>
+NoiseModel fit(const Journal& journal, Wanted wanted) {
     const uint32_t max_counts = journal.header->spectrometer.max_counts;
     SignalClasses all(max_counts);
+    std::set<uint32_t> blocks;
+    for (const PlanPoint& point : journal.plan) {
+        if (wanted(point)) blocks.insert(point.block);
+    }
     std::map<uint32_t, std::vector<double>> darks;
     for (const JournalDark& dark : journal.darks) {
+        if (blocks.count(dark.block) == 0) continue;
         Scatter s = scatter(dark.frames);
         for (size_t i = 0; i < s.mean.size() && dark.frames.size() > 1; ++i) {
             if (s.largest[i] >= max_counts) continue;
@@ -206,6 +207,21 @@ NoiseModel fit_noise_model(const Journal& journal) {
         single[{plan.scan, plan.polariser_deg}] = &point;
     }
     return all.fit();
+}
+
+}  // namespace
+
+double NoiseModel::variance(double net_counts) const {
+    const double net = std::max(0.0, net_counts);
+    return std::max(rounding_variance, read + photon * net + relative * net * net);
+}
+
+NoiseModel fit_noise_model(const Journal& journal) {
+    return fit(journal, [](const PlanPoint&) { return true; });
+}
+
+NoiseModel fit_noise_model(const Journal& journal, uint32_t group) {
+    return fit(journal, [&](const PlanPoint& point) { return point.group == group; });
 }
 
 }  // namespace drude

@@ -28,4 +28,8 @@ struct NoiseModel {
 // quarter of its square, is the noise alone. `readings` counts the dark only where there are none.
 NoiseModel fit_noise_model(const Journal& journal);
 
+// Of the points and darks of one group only: the noise of the dark current grows with the
+// integration time, so groups of a lobe scan differ. readings is 0 where it has none.
+NoiseModel fit_noise_model(const Journal& journal, uint32_t group);
+
 }  // namespace drude

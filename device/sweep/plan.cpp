@@ -49,18 +49,72 @@ void add_scans(const Recipe& recipe, const PlanPoint& setting, uint32_t* scan,
     }
 }
 
-// s first: every position is read with the polariser along s (90) and along p (0).
-void add_lobe_readings(const Recipe& recipe, const PlanPoint& setting, uint32_t* scan,
-                       std::vector<PlanPoint>* plan) {
-    for (const double polariser : {90.0, 0.0}) {
-        PlanPoint point = setting;
-        point.scan = *scan;
-        point.analyser_deg = recipe.zones_deg.front();
-        point.polariser_deg = polariser;
-        plan->push_back(point);
+constexpr double widest_parallel_deg = 1;
+// The straight beam is read in so many times more frames than a position of the detector.
+constexpr uint32_t straight_repeat = 4;
+
+class LobePlan {
+  public:
+    explicit LobePlan(const Recipe& recipe) : recipe_(recipe) {}
+
+    std::vector<PlanPoint> make() {
+        for (size_t angle = 0; angle < recipe_.angles_deg.size(); ++angle) add_angle(angle);
+        return plan_;
     }
-    ++*scan;
-}
+
+  private:
+    // The last straight-through reading of an angle is the first of the next.
+    void add_angle(size_t angle) {
+        const auto offsets = static_cast<int>(recipe_.offsets_deg.size());
+        const int parts = std::max(1, std::min(recipe_.straight_through_readings - 1, offsets));
+        const std::vector<int> order = step_order(offsets, recipe_.shuffle, recipe_.seed, angle);
+        if (angle == 0) add_straight();
+        for (int part = 0; part < parts; ++part) {
+            PlanPoint setting;
+            setting.block = block_++;
+            setting.group = static_cast<uint32_t>(angle) + 1;
+            setting.incidence_deg = recipe_.angles_deg[angle];
+            for (int i = part * offsets / parts; i < (part + 1) * offsets / parts; ++i) {
+                setting.offset_deg =
+                    recipe_.offsets_deg[static_cast<size_t>(order[static_cast<size_t>(i)])];
+                add_readings(setting, 0, 0);
+            }
+            if (recipe_.straight_through_readings > 1) add_straight();
+        }
+    }
+
+    void add_straight() {
+        PlanPoint setting;
+        setting.block = block_++;
+        setting.straight_through = true;
+        setting.incidence_deg = 90;
+        setting.repeat = straight_repeat;
+        add_readings(setting, straight_ % 2 * 180, straight_ / 2 % 2 * -180);
+        ++straight_;
+    }
+
+    // s first: every position is read with the polariser along s (90) and along p (0).
+    void add_readings(PlanPoint point, int polariser_turn, int analyser_turn) {
+        const bool crossed =
+            recipe_.analyser_follows && recipe_.detector_half_angle_deg > widest_parallel_deg;
+        point.scan = scan_++;
+        for (const double polariser : {90.0, 0.0}) {
+            for (const double across : {0.0, 90.0}) {
+                if (across > 0 && !crossed) continue;
+                point.polariser_deg = polariser + polariser_turn;
+                point.analyser_deg = recipe_.analyser_follows
+                                         ? std::fmod(polariser + across, 180) + analyser_turn
+                                         : recipe_.zones_deg.front();
+                plan_.push_back(point);
+            }
+        }
+    }
+
+    const Recipe& recipe_;
+    std::vector<PlanPoint> plan_;
+    uint32_t block_ = 0, scan_ = 0;
+    int straight_ = 0;
+};
 
 template <class Keep>
 std::vector<double> kept(const std::vector<double>& values, Keep keep) {
@@ -69,34 +123,41 @@ std::vector<double> kept(const std::vector<double>& values, Keep keep) {
     return result;
 }
 
+void adapt_lobe(const Bench& bench, Recipe* recipe, std::vector<std::string>* warnings) {
+    recipe->cycles = 1;
+    if (!bench.analyser.rotator && recipe->analyser_follows) {
+        recipe->analyser_follows = false;
+        // Twice an error of the polariser's azimuth, in radians: a quarter of a degree.
+        recipe->relative_floor = std::max(recipe->relative_floor, 0.01);
+        warnings->push_back(fmt::format(
+            "the analyser does not turn: errors of both azimuths move the reflectances of s and p "
+            "against each other, and their sigmas hold {} of the value for it",
+            recipe->relative_floor));
+    }
+    if (bench.goniometer_by_hand && recipe->straight_through_readings > 2) {
+        recipe->straight_through_readings = 2;
+        warnings->push_back(
+            "the arms are moved by hand: the straight beam is read before and after the detector's "
+            "positions only");
+    }
+}
+
 }  // namespace
 
 std::vector<PlanPoint> make_plan(const Recipe& recipe) {
+    if (recipe.kind == RecipeKind::lobe) return LobePlan(recipe).make();
     std::vector<PlanPoint> plan;
     uint32_t scan = 0;
     PlanPoint setting;
-    if (recipe.kind == RecipeKind::straight_through || recipe.kind == RecipeKind::lobe) {
+    if (recipe.kind == RecipeKind::straight_through) {
         setting.straight_through = true;
         setting.incidence_deg = 90;
-        if (recipe.kind == RecipeKind::straight_through) {
-            add_scans(recipe, setting, &scan, &plan);
-            return plan;
-        }
-        add_lobe_readings(recipe, setting, &scan, &plan);
-        setting.straight_through = false;
-        setting.block = 1;
-        setting.group = 1;
+        add_scans(recipe, setting, &scan, &plan);
+        return plan;
     }
     for (const double angle : recipe.angles_deg) {
         setting.incidence_deg = angle;
-        if (recipe.kind == RecipeKind::lobe) {
-            for (const double offset : recipe.offsets_deg) {
-                setting.offset_deg = offset;
-                add_lobe_readings(recipe, setting, &scan, &plan);
-            }
-        } else {
-            add_scans(recipe, setting, &scan, &plan);
-        }
+        add_scans(recipe, setting, &scan, &plan);
         ++setting.block;
     }
     return plan;
@@ -134,6 +195,7 @@ Recipe adapt_recipe(Recipe recipe, const Bench& bench, std::vector<std::string>*
         user_error("{}: the polariser does not turn, and a {} measurement turns it", bench.name,
                    recipe_kind_name(recipe.kind));
     }
+    if (recipe.kind == RecipeKind::lobe) adapt_lobe(bench, &recipe, warnings);
     if (!bench.analyser.rotator) {
         const double stands = bench.analyser.fixed_deg;
         const auto zones = kept(recipe.zones_deg, [&](double zone) { return zone == stands; });
@@ -153,7 +215,6 @@ Recipe adapt_recipe(Recipe recipe, const Bench& bench, std::vector<std::string>*
             "the bench has no retarder: Delta is known up to its sign, and badly near 0 and 180");
         recipe.cycles = 1;
     }
-    if (recipe.kind == RecipeKind::lobe) recipe.cycles = 1;
     const SpectrometerInfo& info = bench.spectrometer->info();
     if (recipe.integration_s > 0 &&
         (recipe.integration_s < info.shortest_s || recipe.integration_s > info.longest_s)) {

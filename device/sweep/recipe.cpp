@@ -87,6 +87,12 @@ void check_lobe(const Recipe& recipe, const std::string& where) {
             "detector's cone, above 0 and below 90",
             where, recipe.detector_half_angle_deg);
     }
+    check_range(where, "straight_through_readings", recipe.straight_through_readings, 1, 100);
+    check_range(where, "relative_floor", recipe.relative_floor, 0, 0.1);
+    if (!(recipe.longest_integration_s > 0 && recipe.longest_integration_s <= 3600)) {
+        user_error("{}: found longest_integration_s = {}, expected above 0 and up to 3600 seconds",
+                   where, recipe.longest_integration_s);
+    }
 }
 
 }  // namespace
@@ -114,7 +120,7 @@ Recipe default_recipe(RecipeKind kind) {
         recipe.angles_deg = {70};
         recipe.cycles = 1;
     }
-    // The analyser passes half of s and half of p.
+    // Where the analyser does not follow the polariser, it passes half of s and half of p.
     if (kind == RecipeKind::lobe) {
         recipe.zones_deg = {45};
         recipe.cycles = 1;
@@ -167,10 +173,12 @@ void Recipe::check(const std::string& where) const {
         user_error("{}: found seed = {}, expected 0 to {:.0f}", where, seed, largest_integer);
     }
     if (kind == RecipeKind::lobe) check_lobe(*this, where);
-    const size_t settings = kind == RecipeKind::lobe
-                                ? 2 * (angles_deg.size() * offsets_deg.size() + 1)
-                                : std::max<size_t>(1, angles_deg.size()) * zones_deg.size() *
-                                      static_cast<size_t>(steps);
+    const size_t settings =
+        kind == RecipeKind::lobe
+            ? 4 * angles_deg.size() *
+                  (offsets_deg.size() + static_cast<size_t>(straight_through_readings))
+            : std::max<size_t>(1, angles_deg.size()) * zones_deg.size() *
+                  static_cast<size_t>(steps);
     if (settings > most_points) {
         user_error("{}: asks for {} settings of the bench, expected at most {}", where, settings,
                    most_points);
@@ -200,6 +208,10 @@ std::string format_recipe(const Recipe& recipe) {
         json["offsets_deg"] = recipe.offsets_deg;
         json["detector_solid_angle_sr"] = recipe.detector_solid_angle_sr;
         json["detector_half_angle_deg"] = recipe.detector_half_angle_deg;
+        json["straight_through_readings"] = recipe.straight_through_readings;
+        json["analyser_follows"] = recipe.analyser_follows;
+        json["longest_integration_s"] = recipe.longest_integration_s;
+        json["relative_floor"] = recipe.relative_floor;
     }
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -226,7 +238,11 @@ Recipe parse_recipe(const std::string& json, const std::string& file) {
                      "step_nm",
                      "offsets_deg",
                      "detector_solid_angle_sr",
-                     "detector_half_angle_deg"});
+                     "detector_half_angle_deg",
+                     "straight_through_readings",
+                     "analyser_follows",
+                     "longest_integration_s",
+                     "relative_floor"});
     const JsonValue format = root.at("format");
     if (format.string() != format_name) {
         user_error_at(format.place(), "{} is '{}', expected '{}'", format.shown(), format.string(),
@@ -276,6 +292,10 @@ Recipe parse_recipe(const std::string& json, const std::string& file) {
     read_numbers("offsets_deg", &recipe.offsets_deg);
     read_number("detector_solid_angle_sr", &recipe.detector_solid_angle_sr);
     read_number("detector_half_angle_deg", &recipe.detector_half_angle_deg);
+    read_integer("straight_through_readings", &recipe.straight_through_readings);
+    read_boolean("analyser_follows", &recipe.analyser_follows);
+    read_number("longest_integration_s", &recipe.longest_integration_s);
+    read_number("relative_floor", &recipe.relative_floor);
     recipe.check(file);
     return recipe;
 }

@@ -38,6 +38,17 @@ struct Recipe {
     // Lobe scans.
     std::vector<double> offsets_deg;  // of the detector
     double detector_solid_angle_sr = 0, detector_half_angle_deg = 0;
+    // Times that the straight beam is read for each angle: before, between and after the detector's
+    // positions, 1 to 100 (1: before only). What the lamp does between two of them is interpolated.
+    int straight_through_readings = 4;
+    // The analyser stands along the polariser, where errors of both azimuths count in second order;
+    // false: it stays at the first of zones_deg, where half a degree of the polariser moves s and p
+    // by 2 % in opposite directions.
+    bool analyser_follows = true;
+    double longest_integration_s = 10;  // that automatic exposure may choose, up to 3600
+    // Systematic error of a reflectance over its value, which goes into its sigma: what azimuths
+    // half a degree off leave in second order, and the linearity correction; 0 to 0.1.
+    double relative_floor = 2e-4;
 
     void check(const std::string& where) const;  // throws Error (user)
 };

@@ -151,8 +151,9 @@ class Sweep {
             std::vector<PlanPoint> points;
             std::copy_if(journal_.plan.begin(), journal_.plan.end(), std::back_inserter(points),
                          [&](const PlanPoint& point) { return point.group == group; });
+            const ExposureLimits limits = exposure_limits(journal_.header->recipe);
             ExposureChoice choice;
-            retrier_.run([&] { choice = choose_exposure(driver_, bench_, points); });
+            retrier_.run([&] { choice = choose_exposure(driver_, bench_, points, limits); });
             for (const std::string& warning : choice.warnings) log("warning", warning);
             exposure.integration_s = choice.integration_s;
             exposure.peak = choice.peak;
@@ -190,7 +191,8 @@ class Sweep {
             driver_.set_lamp(true);
             driver_.set_integration_time(integration_s);
             driver_.set(journal_.plan[index]);
-            point.frames = take_frames(journal_.header->recipe.averages);
+            point.frames = take_frames(journal_.header->recipe.averages *
+                                       static_cast<int>(journal_.plan[index].repeat));
             point.settled_s = driver_.settled_s();
             point.polariser_deg = driver_.polariser_deg();
             point.polariser_reported_deg = driver_.polariser_reported_deg();

@@ -120,6 +120,85 @@ TEST(LobeReduction, TheDevicesPolynomialIsApplied) {
     EXPECT_NEAR(reduce(all, &warnings, info).rows[0].reflectance_s, 0.02, 1e-8);
 }
 
+// A lamp that fades by 20 % over the scan, its blue end by twice that, and bends half-way: known at
+// the straight-through readings and taken out between them, for every pixel.
+TEST(LobeReduction, TheLampIsInterpolatedBetweenVisits) {
+    Light light;
+    light.read_noise = 0;
+    light.electrons_per_count = 1e12;
+    const auto lamp = [](double time, size_t pixel) {
+        const double fall = time < 50 ? 0.004 * time : 0.2;
+        return 1 - fall * (1 + double(pixels - pixel) / pixels);
+    };
+    std::vector<LobeReading> all;
+    const auto add = [&](double incidence, double offset, bool s, double time, double rate,
+                         uint32_t visit) {
+        LobeReading r = light.reading(incidence, offset, s, 0.04, rate);
+        for (size_t j = 0; j < pixels; ++j) {
+            r.step.counts[j] = light.dark + (r.step.counts[j] - light.dark) * lamp(time, j);
+        }
+        r.step.time_s = time;
+        r.visit = visit;
+        all.push_back(r);
+    };
+    uint32_t visit = 0;
+    for (const double time : {0.0, 50.0, 100.0}) {
+        for (const bool s : {true, false}) add(90, 0, s, time, s ? 1e6 : 0.9e6, visit);
+        ++visit;
+    }
+    for (const double time : {10.0, 37.0, 49.0, 51.0, 99.0}) {
+        for (const bool s : {true, false}) add(60, time / 10, s, time, s ? 0.02e6 : 0.0117e6, 0);
+    }
+    std::vector<std::string> warnings;
+    const auto worst = [&] {
+        double most = 0;
+        for (const LobeScanRow& row : reduce(all, &warnings).rows) {
+            most = std::max({most, std::abs(row.reflectance_s / 0.02 - 1),
+                             std::abs(row.reflectance_p / 0.013 - 1)});
+        }
+        return most;
+    };
+    // The ratio of two lines in wavelength is not quite a parabola.
+    EXPECT_LT(worst(), 5e-4);
+    for (LobeReading& reading : all) reading.visit = 0;
+    EXPECT_GT(worst(), 0.1);
+    all[3].step.time_s = std::nan("");
+    EXPECT_THROW(worst(), Error);
+}
+
+TEST(LobeReduction, CrossedLightBelongsToTheFlux) {
+    Light light;
+    light.read_noise = 0;
+    light.electrons_per_count = 1e12;
+    std::vector<LobeReading> all = readings(&light);
+    std::vector<LobeReading> crossed = {
+        light.reading(90, 0, true, 0.04, 1e3), light.reading(90, 0, false, 0.04, 2e3),
+        light.reading(60, 2, true, 0.5, 0.5e3), light.reading(60, 2, false, 0.5, 0.1e3)};
+    for (LobeReading& reading : crossed) {
+        reading.crossed = true;
+        all.push_back(reading);
+    }
+    std::vector<std::string> warnings;
+    const LobeScanRow row = reduce(all, &warnings).rows[0];
+    EXPECT_NEAR(row.reflectance_s, 0.0205e6 / 1.001e6, 1e-6);
+    EXPECT_NEAR(row.reflectance_p, 0.0118e6 / 0.902e6, 1e-6);
+}
+
+TEST(LobeReduction, TheFloorIsPartOfSigmaAndStated) {
+    Light light;
+    const std::vector<LobeReading> all = readings(&light);
+    std::vector<std::string> warnings;
+    const LobeScanRow noise = reduce(all, &warnings).rows[0];
+    ReductionOptions options = one_pixel_bins();
+    options.relative_floor = 0.05;
+    const LobeScan scan = reduce_lobe_readings(all, pixels_apart(), options, 1e-3, 0.5, &warnings);
+    EXPECT_NEAR(scan.rows[0].sigma_s, std::hypot(noise.sigma_s, 0.05 * noise.reflectance_s), 1e-12);
+    EXPECT_NEAR(scan.rows[0].sigma_p, std::hypot(noise.sigma_p, 0.05 * noise.reflectance_p), 1e-12);
+    ASSERT_EQ(scan.header.size(), 2u);
+    EXPECT_EQ(scan.header[0].second.substr(0, 9), "1 reading");
+    EXPECT_EQ(scan.header[1].second.substr(0, 5), "0.05 ");
+}
+
 TEST(LobeReduction, WhatIsMissingIsSaid) {
     Light light;
     const std::vector<LobeReading> good = readings(&light);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -23,9 +24,14 @@ TEST(Recipe, RoundTrips) {
     Recipe recipe = recipe_of(
         ", \"kind\": \"lobe\", \"angles_deg\": [30.1, 45], \"offsets_deg\": [-2, 0.1, 3], "
         "\"detector_solid_angle_sr\": 1e-4, \"detector_half_angle_deg\": 0.4, \"seed\": "
-        "9007199254740991, \"sample\": \"\\u00e4\"");
+        "9007199254740991, \"sample\": \"\\u00e4\", \"straight_through_readings\": 7, "
+        "\"analyser_follows\": false, \"longest_integration_s\": 33.3, \"relative_floor\": 1e-3");
     EXPECT_EQ(recipe.seed, 9007199254740991u);
     EXPECT_EQ(recipe.offsets_deg[1], 0.1);
+    EXPECT_EQ(recipe.straight_through_readings, 7);
+    EXPECT_FALSE(recipe.analyser_follows);
+    EXPECT_EQ(recipe.longest_integration_s, 33.3);
+    EXPECT_EQ(recipe.relative_floor, 1e-3);
     const std::string text = format_recipe(recipe);
     EXPECT_EQ(format_recipe(parse_recipe(text, "again")), text);
 }
@@ -42,6 +48,20 @@ TEST(Recipe, WrongOnesAreRefusedWithTheirPlace) {
     expect_error(Cause::user, {"45 twice"}, [] { recipe_of(", \"angles_deg\": [45, 45]"); });
     expect_error(Cause::user, {"true or false"}, [] { recipe_of(", \"shuffle\": 1"); });
     expect_error(Cause::user, {"offsets_deg"}, [] { recipe_of(", \"kind\": \"lobe\""); });
+    const auto lobe_of = [](const std::string& members) {
+        return recipe_of(
+            ", \"kind\": \"lobe\", \"offsets_deg\": [0], \"detector_solid_angle_sr\": 1e-4, "
+            "\"detector_half_angle_deg\": 0.4, " +
+            members);
+    };
+    expect_error(Cause::user, {"straight_through_readings = 0", "1 to 100"},
+                 [&] { lobe_of("\"straight_through_readings\": 0"); });
+    expect_error(Cause::user, {"relative_floor = 0.2"},
+                 [&] { lobe_of("\"relative_floor\": 0.2"); });
+    expect_error(Cause::user, {"longest_integration_s = 0"},
+                 [&] { lobe_of("\"longest_integration_s\": 0"); });
+    expect_error(Cause::user, {"'relative_flor'", "'relative_floor'"},
+                 [&] { lobe_of("\"relative_flor\": 0"); });
     expect_error(Cause::user, {"drude-recipe/1"},
                  [] { parse_recipe("{\"format\": \"drude-recipe/2\"}", "r"); });
     EXPECT_EQ(recipe_of(", \"steps\": 3, \"harmonic_4\": false").steps, 3);
@@ -77,6 +97,97 @@ TEST(Plan, HasEverySettingOnceInAShuffledOrderOfItsSeed) {
     EXPECT_NE(steps(recipe), steps(other));
     other.shuffle = false;
     EXPECT_EQ(steps(other)[1], 15);
+}
+
+Recipe lobe_recipe() {
+    Recipe recipe = default_recipe(RecipeKind::lobe);
+    recipe.angles_deg = {45, 60};
+    recipe.offsets_deg = {-6, -4, -2, 0, 2, 4, 6};
+    recipe.detector_solid_angle_sr = 2.4e-4;
+    recipe.detector_half_angle_deg = 0.5;
+    return recipe;
+}
+
+// The straight beam before, between and after the parts of each angle, every position once with
+// both polarisations, the analyser along the polariser.
+TEST(Plan, OfALobeScanComesBackToTheStraightBeam) {
+    const Recipe recipe = lobe_recipe();
+    const std::vector<PlanPoint> plan = make_plan(recipe);
+    ASSERT_EQ(plan.size(), 2u * (1 + 2 * 3 + 2 * 7));
+    EXPECT_TRUE(plan.front().straight_through);
+    EXPECT_TRUE(plan.back().straight_through);
+    std::set<std::tuple<double, double, double>> positions;
+    std::set<std::pair<double, double>> straight;
+    std::vector<double> offsets;
+    int visits = 0;
+    for (size_t i = 0; i < plan.size(); ++i) {
+        const PlanPoint& point = plan[i];
+        EXPECT_EQ(std::remainder(point.analyser_deg - point.polariser_deg, 180), 0) << i;
+        EXPECT_EQ(std::fmod(point.polariser_deg, 180), i % 2 == 0 ? 90 : 0) << i;
+        EXPECT_EQ(point.repeat > 1, point.straight_through) << i;
+        EXPECT_EQ(point.group, point.straight_through ? 0u : point.incidence_deg == 45 ? 1u : 2u);
+        if (point.straight_through) {
+            visits += i % 2 == 0 ? 1 : 0;
+            straight.emplace(point.polariser_deg, point.analyser_deg);
+        } else {
+            positions.emplace(point.incidence_deg, point.offset_deg, point.polariser_deg);
+            if (i % 2 == 0) offsets.push_back(point.offset_deg);
+        }
+        if (i == 0) continue;
+        // A dark never spans the straight beam and a sample.
+        EXPECT_EQ(point.block == plan[i - 1].block,
+                  point.straight_through == plan[i - 1].straight_through);
+        EXPECT_GE(point.block, plan[i - 1].block);
+    }
+    EXPECT_EQ(visits, 7);
+    EXPECT_EQ(straight.size(), 8u);  // half turns of either mount
+    EXPECT_EQ(positions.size(), 2u * 2 * 7);
+    EXPECT_FALSE(std::is_sorted(offsets.begin(), offsets.begin() + 7));
+}
+
+TEST(Plan, OfALobeScanFollowsItsRecipe) {
+    Recipe recipe = lobe_recipe();
+    recipe.straight_through_readings = 1;
+    recipe.shuffle = false;
+    std::vector<PlanPoint> plan = make_plan(recipe);
+    ASSERT_EQ(plan.size(), 2u * (1 + 2 * 7));
+    EXPECT_EQ(plan[2].offset_deg, -6);
+    EXPECT_EQ(plan[4].offset_deg, -4);
+    recipe.analyser_follows = false;
+    for (const PlanPoint& point : make_plan(recipe)) EXPECT_EQ(point.analyser_deg, 45);
+    // More readings than positions: one after every position.
+    recipe.straight_through_readings = 100;
+    EXPECT_EQ(make_plan(recipe).size(), 2u * (1 + 2 * (7 + 7)));
+    // A wide detector also reads the crossed light.
+    recipe = lobe_recipe();
+    recipe.detector_half_angle_deg = 2;
+    plan = make_plan(recipe);
+    ASSERT_EQ(plan.size(), 4u * (1 + 2 * 3 + 2 * 7));
+    for (size_t i = 0; i < plan.size(); i += 2) {
+        EXPECT_EQ(std::remainder(plan[i].analyser_deg - plan[i].polariser_deg, 180), 0);
+        EXPECT_EQ(std::abs(std::remainder(plan[i + 1].analyser_deg - plan[i].polariser_deg, 180)),
+                  90);
+        EXPECT_EQ(plan[i].polariser_deg, plan[i + 1].polariser_deg);
+        EXPECT_EQ(plan[i].scan, plan[i + 1].scan);
+    }
+}
+
+TEST(Plan, OfALobeScanAdaptsToTheBench) {
+    Bench bench = short_bench();
+    std::vector<std::string> warnings;
+    EXPECT_TRUE(adapt_recipe(lobe_recipe(), bench, &warnings).analyser_follows);
+    EXPECT_TRUE(warnings.empty());
+    bench.analyser.rotator.reset();
+    bench.analyser.fixed_deg = 45;
+    bench.goniometer_by_hand = true;
+    warnings.clear();
+    const Recipe adapted = adapt_recipe(lobe_recipe(), bench, &warnings);
+    EXPECT_FALSE(adapted.analyser_follows);
+    EXPECT_EQ(adapted.relative_floor, 0.01);
+    EXPECT_EQ(adapted.straight_through_readings, 2);
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_NE(warnings[0].find("does not turn"), std::string::npos);
+    EXPECT_NE(warnings[1].find("by hand"), std::string::npos);
 }
 
 TEST(Plan, AdaptsToWhatTheBenchHas) {

