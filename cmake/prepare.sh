@@ -8,6 +8,7 @@ build_packages=(
     libembree-dev libopenexr-dev libopenimageio-dev libceres-dev libeigen3-dev libglm-dev
     libusb-1.0-0-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libyaml-cpp-dev
     libgtest-dev libbenchmark-dev zlib1g-dev
+    libumockdev-dev umockdev # virtual USB devices, tests only
 )
 
 say() { printf '%s\n' "$*" >&2; }

@@ -1,0 +1,186 @@
+// usb-bench: runs a program on virtual USB devices. bench_options.cpp has its help.
+
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "materials/material.h"
+#include "usb_bench/apt_mount.h"
+#include "usb_bench/bench_options.h"
+#include "usb_bench/client.h"
+#include "usb_bench/elliptec_bus.h"
+#include "usb_bench/ooi_device.h"
+#include "usb_bench/usb_testbed.h"
+
+namespace drude::usb_bench {
+
+namespace {
+
+constexpr int left_something = 125, hung = 124;
+
+std::unique_ptr<VirtualDevice> make_device(const DeviceOption& option, double move_s,
+                                           OpticalBench& bench, FaultPlan& faults) {
+    if (option.scheme == "ooi") return std::make_unique<OoiDevice>(option.serial, bench, faults);
+    if (option.scheme == "ell") {
+        return std::make_unique<ElliptecBus>(
+            option.serial, std::vector<Role>{Role::polariser, Role::analyser, Role::retarder},
+            move_s, bench, faults);
+    }
+    if (option.scheme == "apt-sample" || option.scheme == "apt-arm") {
+        const Role role = option.scheme == "apt-arm" ? Role::detector_arm : Role::sample_stage;
+        return std::make_unique<AptMount>(option.serial, role, move_s, bench, faults);
+    }
+    user_error("--device: no model of '{}'", option.scheme);
+}
+
+// Kills the client at an answer; it is known only once it runs.
+class Killer {
+  public:
+    explicit Killer(FaultPlan& faults) {
+        faults.on_kill = [this](int milliseconds) { start(milliseconds); };
+    }
+    ~Killer() {
+        if (thread_.joinable()) thread_.join();
+    }
+    void aim(pid_t pid) { pid_ = pid; }
+
+  private:
+    void start(int milliseconds) {
+        if (thread_.joinable()) return;
+        thread_ = std::thread([pid = pid_, milliseconds] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+            kill(pid, SIGKILL);
+        });
+    }
+    pid_t pid_ = 0;
+    std::thread thread_;
+};
+
+// What the testbed hears of closed descriptors comes through sockets: a moment later.
+std::vector<std::string> held_in_the_end(UsbTestbed& bed) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+    std::vector<std::string> held = bed.held();
+    while (!held.empty() && std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        held = bed.held();
+    }
+    return held;
+}
+
+ClientRun run(const std::vector<std::string>& command, const BenchOptions& options, UsbTestbed& bed,
+              Killer& killer) {
+    ClientOptions client;
+    client.seconds_allowed = options.seconds_allowed;
+    client.inspect = options.inspect;
+    client.device_root = bed.root();
+    for (const DeviceOption& device : options.devices) {
+        client.drop_override = client.drop_override || device.refused;
+    }
+    client.on_start = [&](pid_t pid) { killer.aim(pid); };
+    std::vector<std::string> held;
+    client.at_exit = [&] { held = held_in_the_end(bed); };
+    ClientRun result = run_client(command, client);
+    if (result.exited) {
+        result.left_over.insert(result.left_over.end(), held.begin(), held.end());
+    } else {
+        // Killed: the system closes what it had.
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+        while (bed.open_count() > 0 && std::chrono::steady_clock::now() < deadline) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+    return result;
+}
+
+int work(const BenchOptions& options) {
+    FaultPlan faults;
+    for (const PlannedFault& fault : options.faults) faults.add(fault);
+    OpticalBench optics(find_material(options.material), options.settings, options.frozen_noise);
+    std::vector<std::unique_ptr<VirtualDevice>> devices;
+    for (const DeviceOption& device : options.devices) {
+        devices.push_back(make_device(device, options.move_s, optics, faults));
+    }
+    UsbTestbed bed;
+    for (size_t i = 0; i < devices.size(); ++i) {
+        bed.plug(*devices[i], {options.devices[i].refused, options.devices[i].busy});
+    }
+    Killer killer(faults);
+    nlohmann::ordered_json report;
+    std::vector<std::string> troubles;
+    int status = 0;
+    uint64_t answers_of_first = 0;
+    for (const std::vector<std::string>* command : {&options.command, &options.on_failure}) {
+        const bool second = command == &options.on_failure;
+        if (second) {
+            if (status == 0 || options.on_failure.empty()) break;
+            {
+                const std::lock_guard guard(bed.lock());
+                faults.clear();
+            }
+            bed.plug_all_in();
+        }
+        const ClientRun result = run(*command, options, bed, killer);
+        status = result.hung ? hung : result.status;
+        for (const std::string& one : result.left_over) troubles.push_back("left behind: " + one);
+        if (result.hung) troubles.push_back("hung");
+        report[second ? "status_of_second" : "status"] = status;
+        if (!second) answers_of_first = faults.count();
+    }
+    for (const std::string& one : bed.complaints()) troubles.push_back(one);
+    report["answers"] = answers_of_first;
+    report["faults_applied"] = faults.applied();
+    report["not_applicable"] = faults.not_applicable();
+    report["drivers_detached"] = bed.detached_count();
+    report["troubles"] = troubles;
+    if (!options.report_file.empty()) write_file(options.report_file, report.dump(1) + "\n");
+    if (!options.answers_file.empty()) {
+        write_file(options.answers_file, fmt::format("{}\n", fmt::join(faults.answers(), "\n")));
+    }
+    if (options.count) fmt::print(stderr, "usb-bench: {} answers\n", answers_of_first);
+    for (const std::string& one : troubles) fmt::print(stderr, "usb-bench: {}\n", one);
+    if (status == hung) return hung;
+    return troubles.empty() ? status : left_something;
+}
+
+// udev's view of the machine is mocked by a preload library, for this process as well: it makes the
+// events of plugging through libudev. Started again once to have it.
+void start_under_preload(char** arguments) {
+    constexpr const char* mark = "USB_BENCH_PRELOADED";
+    if (std::getenv(mark) != nullptr) return;
+    const char* before = std::getenv("LD_PRELOAD");
+    std::string libraries = "libumockdev-preload.so.0";
+    if (before != nullptr && *before != '\0') libraries = std::string(before) + ":" + libraries;
+    setenv(mark, "1", 1);
+    setenv("LD_PRELOAD", libraries.c_str(), 1);
+    execv("/proc/self/exe", arguments);
+    outside_error("cannot start again under umockdev's preload library: {}", std::strerror(errno));
+}
+
+}  // namespace
+
+}  // namespace drude::usb_bench
+
+int main(int argc, char** argv) {
+    using namespace drude;
+    try {
+        const usb_bench::BenchOptions options =
+            usb_bench::parse_bench_options({argv + 1, argv + argc});
+        usb_bench::start_under_preload(argv);
+        return usb_bench::work(options);
+    } catch (const Error& error) {
+        fmt::print(stderr, "usb-bench: {}\n", error.message());
+        return static_cast<int>(error.cause());
+    }
+}
