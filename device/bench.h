@@ -24,8 +24,7 @@ struct Azimuth {
     double fixed_deg = 45;
 };
 
-// The retarder stands between sample and analyser, its fast axis along s when it is in the beam, so
-// that it holds p back.
+// The retarder stands between sample and analyser, its fast axis along p when it is in the beam.
 // A mount whose arm swings it in and out, or a person who is asked to.
 struct RetarderArm {
     bool present = false;
@@ -45,6 +44,7 @@ struct Bench {
     bool goniometer_by_hand = false;     // somebody is asked to move it
     double fixed_incidence_deg = 0;      // where the arms do not move; 0: they do
     std::shared_ptr<PsiDeltaHead> head;  // instead of everything above
+    std::string calibration;             // the file that goes with it; empty: none
     std::string sample;                  // its name, where the bench knows it (virtual ones do)
     std::vector<std::pair<std::string, std::string>> notes;  // for the measurement's header
     std::vector<std::string> warnings;

@@ -5,6 +5,7 @@
 
 #include "base/numbers.h"
 #include "device/device_error.h"
+#include "device/instruments/stored_calibration.h"
 
 namespace drude {
 
@@ -80,19 +81,8 @@ std::array<uint8_t, 15> parse_ooi_slot(std::span<const uint8_t> reply, uint8_t s
     return data;
 }
 
-std::string ooi_slot_text(const std::array<uint8_t, 15>& slot) {
-    std::string text;
-    for (const uint8_t byte : slot) {
-        if (byte == 0) break;
-        text += byte >= 32 && byte < 127 ? static_cast<char>(byte) : '?';
-    }
-    const size_t first = text.find_first_not_of(' ');
-    if (first == std::string::npos) return {};
-    return text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
-
 double ooi_slot_number(const std::array<uint8_t, 15>& slot) {
-    return parse_double(ooi_slot_text(slot)).value_or(std::numeric_limits<double>::quiet_NaN());
+    return parse_double(stored_text(slot)).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 OoiStatus parse_ooi_status(std::span<const uint8_t> reply, const std::string& device) {

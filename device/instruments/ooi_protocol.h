@@ -42,9 +42,7 @@ bool is_ooi_slot_reply(std::span<const uint8_t> reply, uint8_t slot);
 // The 15 bytes of a slot.
 std::array<uint8_t, 15> parse_ooi_slot(std::span<const uint8_t> reply, uint8_t slot,
                                        const std::string& device);
-// Its text up to the first NUL, blanks at its ends removed; '?' for what is not printable ASCII.
-std::string ooi_slot_text(const std::array<uint8_t, 15>& slot);
-// The number that is its text; NaN where it spells none.
+// The number that a slot spells as text; NaN where it spells none.
 double ooi_slot_number(const std::array<uint8_t, 15>& slot);
 
 OoiStatus parse_ooi_status(std::span<const uint8_t> reply, const std::string& device);

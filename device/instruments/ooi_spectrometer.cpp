@@ -7,7 +7,7 @@
 #include "device/instruments/ooi_models.h"
 #include "device/instruments/ooi_protocol.h"
 #include "device/instruments/spectrometer_link.h"
-#include "device/instruments/wavelength_calibration.h"
+#include "device/instruments/stored_calibration.h"
 
 namespace drude {
 
@@ -163,7 +163,7 @@ class OoiSpectrometer : public Spectrometer {
 
     void read_calibration() {
         info_.warnings.clear();
-        const std::string in_memory = ooi_slot_text(link_.slot(0));
+        const std::string in_memory = stored_text(link_.slot(0));
         info_.serial = in_memory.empty() ? port_->serial() : in_memory;
         info_.uri = "ooi:" + (port_->serial().empty() ? in_memory : port_->serial());
         info_.model = fmt::format("Ocean Optics {}", model_.name);
@@ -258,7 +258,7 @@ std::string ask_ooi_serial(UsbPort& port) {
         [&] {
             link.drain();
             link.initialize(real_clock());
-            serial = ooi_slot_text(link.slot(0));
+            serial = stored_text(link.slot(0));
         },
         [&] { link.clear(); });
     return serial;

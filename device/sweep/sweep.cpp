@@ -159,13 +159,19 @@ class Sweep {
         return exposure.integration_s;
     }
 
+    // With everything at the block's first point, so that stray light is that of the block and a
+    // dark that is taken again is taken in the same state.
     JournalDark take_dark(uint32_t block, double integration_s) {
+        const auto first =
+            std::find_if(journal_.plan.begin(), journal_.plan.end(),
+                         [&](const PlanPoint& point) { return point.block == block; });
         JournalDark dark;
         dark.block = block;
         dark.session = session_;
         dark.integration_s = integration_s;
         retrier_.run([&] {
             driver_.set_integration_time(integration_s);
+            driver_.set(*first);
             driver_.set_lamp(false);
             dark.frames = take_frames(journal_.header->recipe.dark_frames);
         });

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -11,6 +10,7 @@
 #include "base/counter_random.h"
 #include "base/error.h"
 #include "device/virtual/light_path.h"
+#include "device/virtual/state_hash.h"
 #include "materials/optical_elements.h"
 
 namespace drude {
@@ -19,62 +19,13 @@ namespace {
 
 constexpr double degree = pi / 180;
 
-// ---- numbers drawn
-// -------------------------------------------------------------------------------
-
-// What a hash is for: no two of them meet in the same random numbers.
-enum class Draw : uint64_t {
-    polariser_jitter = 1,
-    analyser_jitter,
-    frame,
-    dark_frame,
-    mixed_frame
-};
-
-// SplitMix64's finaliser (Steele, Lea & Flood 2014): every bit of the result depends on each of x.
-uint64_t scrambled(uint64_t x) {
-    x += 0x9E3779B97F4A7C15;
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EB;
-    return x ^ (x >> 31);
-}
-
-class Hash {
-  public:
-    explicit Hash(Draw draw) : value_(scrambled(static_cast<uint64_t>(draw))) {}
-    Hash& add(uint64_t x) {
-        value_ = scrambled(value_ ^ x);
-        return *this;
-    }
-    // Millionths: what a mount reports may come back with another last digit after a round trip.
-    Hash& add(double x) { return add(static_cast<uint64_t>(std::llround(x * 1e6))); }
-    Hash& add_azimuth(double degrees) {
-        const auto millionths = std::llround(degrees * 1e6) % 360000000;
-        return add(static_cast<uint64_t>(millionths < 0 ? millionths + 360000000 : millionths));
-    }
-    Hash& add_arms(const OpticalState& state) {
-        add(uint64_t{state.straight_through});
-        return state.straight_through ? *this : add(state.incidence_deg).add(state.offset_deg);
-    }
-    uint64_t value() const { return value_; }
-
-  private:
-    uint64_t value_;
-};
-
-Hash frame_hash(const OpticalState& state, double integration_s, uint64_t exposure) {
-    Hash hash(state.lamp_on ? Draw::frame : Draw::dark_frame);
+StateHash frame_hash(const OpticalState& state, double integration_s, uint64_t exposure) {
+    StateHash hash(state.lamp_on ? Draw::frame : Draw::dark_frame);
     hash.add_arms(state).add(integration_s * 1e3).add(exposure);
     if (!state.lamp_on) return hash;
     return hash.add_azimuth(state.polariser_deg)
         .add_azimuth(state.analyser_deg)
         .add(uint64_t{state.retarder_in});
-}
-
-// In [0, 1).
-double uniform(uint64_t seed, uint64_t stream, uint64_t index) {
-    return static_cast<double>(scrambled(scrambled(scrambled(seed) ^ stream) ^ index) >> 11) *
-           0x1p-53;
 }
 
 // ---- elements
@@ -97,13 +48,13 @@ Mueller<double> leaking_polariser(double azimuth_deg, double leak) {
     return sum;
 }
 
-// The fast axis is along s, which is x. An amplitude transmittance of p over s above 1 means that
+// The fast axis is along p. An amplitude transmittance of p over s above 1 means that
 // less of s comes through.
 Mueller<double> retarder(double retardance_deg, double diattenuation) {
     const double most = std::max(1.0, diattenuation);
     const double s = 1 / most, p = diattenuation / most;
     const Reflection<double> transmitted{s * s, p * p, s * p, 0};
-    return mueller(transmitted) * linear_retarder(Rotation<double>{1, 0}, retardance_deg * degree);
+    return mueller(transmitted) * linear_retarder(axis_at(0), retardance_deg * degree);
 }
 
 // Relative spectral energy of a black body (Planck) times a bell-shaped response of the detector.
@@ -197,7 +148,7 @@ VirtualOptics::VirtualOptics(Material sample, VirtualBenchSettings settings)
 
 double VirtualOptics::true_polariser_deg(const OpticalState& state) const {
     const double reported = state.polariser_deg;
-    const uint64_t stream = Hash(Draw::polariser_jitter)
+    const uint64_t stream = StateHash(Draw::polariser_jitter)
                                 .add_arms(state)
                                 .add(uint64_t{state.retarder_in})
                                 .add_azimuth(state.analyser_deg)
@@ -209,7 +160,7 @@ double VirtualOptics::true_polariser_deg(const OpticalState& state) const {
 }
 
 double VirtualOptics::true_analyser_deg(const OpticalState& state) const {
-    const uint64_t stream = Hash(Draw::analyser_jitter)
+    const uint64_t stream = StateHash(Draw::analyser_jitter)
                                 .add_arms(state)
                                 .add(uint64_t{state.retarder_in})
                                 .add_azimuth(state.analyser_deg)
@@ -300,7 +251,7 @@ std::vector<uint32_t> VirtualOptics::frame(const OpticalState& state, double int
 
 std::vector<uint32_t> VirtualOptics::frame(const std::vector<ExposurePart>& parts, double start_s,
                                            uint64_t exposure) const {
-    Hash hash(Draw::mixed_frame);
+    StateHash hash(Draw::mixed_frame);
     hash.add(exposure);
     double integration_s = 0;
     for (const ExposurePart& part : parts) {

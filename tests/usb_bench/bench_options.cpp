@@ -22,6 +22,7 @@ the program's status; 125 where it left something behind, 124 where it hung.
   --material NAME          of the sample
   --settings FILE          of the bench (JSON, as of "virtual" in a bench file)
   --frozen-noise           the same noise in every exposure of one state
+  --incidence DEGREES      where none of the devices turns the arms (70)
   --move-seconds S         that a mount takes
   --seconds S              that the program may take (60)
   --no-inspect             do not look at the program when it exits (sanitizers)
@@ -112,6 +113,8 @@ BenchOptions parse_bench_options(const std::vector<std::string>& words) {
             options.settings = parse_virtual_bench_settings(read_file(file), file);
         } else if (option == "--frozen-noise") {
             options.frozen_noise = true;
+        } else if (option == "--incidence") {
+            options.incidence_deg = number(option, value());
         } else if (option == "--move-seconds") {
             options.move_s = number(option, value());
         } else if (option == "--seconds") {
@@ -139,6 +142,13 @@ BenchOptions parse_bench_options(const std::vector<std::string>& words) {
         options.command.push_back(words[i]);
     }
     for (++i; i < words.size(); ++i) options.on_failure.push_back(words[i]);
+    for (const DeviceOption& device : options.devices) {
+        if (device.scheme != "obp") continue;
+        // Those of the virtual STS; its coefficients are floats, which hold a half exactly.
+        options.settings.pixels = 1024;
+        options.settings.max_counts = 16383;
+        options.settings.last_nm = 340 + 0.5 * 1023;
+    }
     if (options.command.empty()) user_error("usb-bench: no program after '--'\n{}", usage);
     return options;
 }

@@ -22,6 +22,7 @@ struct BenchOptions {
     VirtualBenchSettings settings;
     bool frozen_noise = false;
     double move_s = 0;
+    double incidence_deg = 70;  // where no device turns the arms
     double seconds_allowed = 60;
     bool inspect = true;
     bool count = false;

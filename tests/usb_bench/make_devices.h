@@ -10,8 +10,8 @@
 
 namespace drude::usb_bench {
 
-// In the order of options.devices; `bench` and `faults` outlive them. Throws Error (user) for a
-// scheme without a model.
+// In the order of options.devices; `bench` and `faults` outlive them. Arms that nothing moves stand
+// at options.incidence_deg. Throws Error (user) for a scheme without a model.
 std::vector<std::unique_ptr<VirtualDevice>> make_devices(const BenchOptions& options,
                                                          OpticalBench& bench, FaultPlan& faults);
 

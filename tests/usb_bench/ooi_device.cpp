@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "base/numbers.h"
 
 namespace drude::usb_bench {
@@ -40,7 +42,7 @@ OoiDevice::OoiDevice(const std::string& serial, OpticalBench& bench, FaultPlan& 
     slots_[0] = serial;
     slots_[1] = format_double(settings.first_nm).substr(0, 15);
     // Rounded to what a slot holds; settings are chosen so that nothing is lost.
-    slots_[2] = format_double((settings.last_nm - settings.first_nm) / (pixels - 1)).substr(0, 15);
+    slots_[2] = fmt::format("{:.12g}", (settings.last_nm - settings.first_nm) / (pixels - 1));
     slots_[6] = "1";
     const std::vector<double>& nonlinearity = settings.reported_nonlinearity;
     for (size_t i = 0; i < std::min<size_t>(nonlinearity.size(), 8); ++i) {

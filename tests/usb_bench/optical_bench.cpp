@@ -32,13 +32,12 @@ OpticalState OpticalBench::from_angles() const {
     state.polariser_deg = at(Role::polariser);
     state.analyser_deg = at(Role::analyser);
     state.retarder_in = std::abs(folded(at(Role::retarder))) < 45;
-    state.incidence_deg = at(Role::sample_stage);
+    // On its way the stage passes where no light would meet the sample's face.
+    state.incidence_deg = std::clamp(folded(at(Role::sample_stage)), 0.5, 89.5);
     state.straight_through = std::abs(folded(at(Role::detector_arm))) < 0.01;
-    state.offset_deg = state.straight_through
-                           ? 0
-                           : folded(at(Role::detector_arm) - (180 - 2 * at(Role::sample_stage)));
-    // An arm of a goniometer that is none of this bench stands where it should.
-    if (std::abs(state.offset_deg) < 0.01) state.offset_deg = 0;
+    const double offset = folded(180 - 2 * state.incidence_deg - at(Role::detector_arm));
+    // Closer than the encoders resolve: in the mirror direction.
+    state.offset_deg = state.straight_through || std::abs(offset) < 0.01 ? 0 : offset;
     state.lamp_on = lamp_on_;
     return state;
 }
@@ -58,6 +57,11 @@ void OpticalBench::set(Role role, double degrees) {
     if (role == Role::none) return;
     angles_[static_cast<int>(role)] = degrees;
     change(from_angles());
+}
+
+void OpticalBench::fix_arms(double incidence_deg) {
+    set(Role::sample_stage, incidence_deg);
+    set(Role::detector_arm, 180 - 2 * incidence_deg);
 }
 
 void OpticalBench::set_lamp(bool on) {

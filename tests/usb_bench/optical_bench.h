@@ -13,9 +13,10 @@ enum class Role { none, polariser, analyser, retarder, sample_stage, detector_ar
 
 // Polariser and analyser: the axis stands where the mount reports to be. Retarder: in the beam
 // at 0 degrees of its arm, out at 90. Goniometer: the sample's normal stands at `sample_stage`
-// from the beam and the detector at `detector_arm` from straight through, so that the mirror
-// direction is at 180 - 2 * sample_stage and straight through means an arm at 0 and the sample's
-// surface along the beam (90).
+// from the source and the detector at `detector_arm` from straight through, so that the mirror
+// direction is at 180 - 2 * sample_stage, and a smaller arm is further from the normal. An arm at 0
+// looks into the source: the sample is taken to be out of the beam then. A bench without mounts for
+// the arms has a fixed goniometer (fix_arms()).
 class OpticalBench {
   public:
     // `frozen_noise`: every exposure in one state has the same noise, whatever its number. Throws
@@ -25,6 +26,7 @@ class OpticalBench {
     const VirtualOptics& optics() const { return optics_; }
     void set(Role role, double degrees);
     void set_lamp(bool on);
+    void fix_arms(double incidence_deg);
     double angle(Role role) const;
 
     // Raw counts of an exposure that lasts from `begin` for `seconds`, some of which may lie in the

@@ -290,10 +290,10 @@ std::optional<VirtualDevice::Prepared> VirtualDevice::prepare(uint8_t endpoint, 
     return prepared;
 }
 
-void VirtualDevice::send(uint8_t endpoint, const Bytes& message, const AnswerShape& shape,
+bool VirtualDevice::send(uint8_t endpoint, const Bytes& message, const AnswerShape& shape,
                          Instant due, bool zero_length) {
     const std::optional<Prepared> prepared = prepare(endpoint, message, shape);
-    if (!prepared) return;
+    if (!prepared) return false;
     const size_t size = packet_size(endpoint), total = prepared->bytes.size();
     std::deque<Packet>& queue = queued_[endpoint];
     for (size_t first = 0; first < total; first += size) {
@@ -302,6 +302,7 @@ void VirtualDevice::send(uint8_t endpoint, const Bytes& message, const AnswerSha
     // A message that a fault cut to whole packets ends like any other.
     if ((zero_length && total % size == 0) || total == 0) queue.push_back({{}, due, false});
     if (prepared->babble) queue.back().babble = true;
+    return true;
 }
 
 void VirtualDevice::reset() {

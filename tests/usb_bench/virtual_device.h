@@ -123,8 +123,8 @@ class VirtualDevice {
     };
     std::optional<Prepared> prepare(uint8_t endpoint, Bytes message, const AnswerShape& shape);
     // prepare(), and into packets; `zero_length`: an empty packet ends a message that fills its
-    // last one.
-    void send(uint8_t endpoint, const Bytes& message, const AnswerShape& shape, Instant due,
+    // last one. False where the message was lost.
+    bool send(uint8_t endpoint, const Bytes& message, const AnswerShape& shape, Instant due,
               bool zero_length = false);
     void halt(uint8_t endpoint) { halted_.insert(endpoint); }
     size_t packet_size(uint8_t endpoint) const;

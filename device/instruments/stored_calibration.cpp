@@ -1,4 +1,4 @@
-#include "device/instruments/wavelength_calibration.h"
+#include "device/instruments/stored_calibration.h"
 
 #include <fmt/ranges.h>
 
@@ -30,6 +30,17 @@ bool all_finite(const std::vector<double>& coefficients) {
 }
 
 }  // namespace
+
+std::string stored_text(std::span<const uint8_t> bytes) {
+    std::string text;
+    for (const uint8_t byte : bytes) {
+        if (byte == 0) break;
+        text += byte >= 32 && byte < 127 ? static_cast<char>(byte) : '?';
+    }
+    const size_t first = text.find_first_not_of(' ');
+    if (first == std::string::npos) return {};
+    return text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
 
 std::vector<double> polynomial_wavelengths(const std::vector<double>& coefficients, int pixels,
                                            int origin, const std::string& device) {

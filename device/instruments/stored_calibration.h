@@ -1,11 +1,16 @@
-// What spectrometers store about themselves: polynomials of wavelength and of non-linearity.
+// What spectrometers store about themselves: names, polynomials of wavelength and non-linearity.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace drude {
+
+// Text as it lies in a device's memory: up to the first NUL, blanks at its ends removed, '?' for
+// what is not printable ASCII.
+std::string stored_text(std::span<const uint8_t> bytes);
 
 // Wavelengths of pixels 0 to `pixels` - 1: sum of c[i] * (pixel + origin)^i, in nm. Throws
 // DeviceError (bad_frame), its message beginning with `device`, where a coefficient or a wavelength
