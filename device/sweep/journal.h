@@ -33,9 +33,10 @@ struct JournalHeader {
     bool has_spectrometer = true;                            // false: a head that returns rows
     SpectrometerInfo spectrometer;
     std::string head_identity;
-    double mount_repeatability_deg = 0;  // of the polariser's mount
-    std::string software;                // "drude 0.1.0"
-    std::string started;                 // UTC, ISO 8601; empty for virtual benches
+    double mount_repeatability_deg = 0;     // of the polariser's mount
+    double analyser_repeatability_deg = 0;  // of the analyser's
+    std::string software;                   // "drude 0.1.0"
+    std::string started;                    // UTC, ISO 8601; empty for virtual benches
 };
 
 struct JournalExposure {

@@ -84,7 +84,8 @@ std::string format_journal_header(const JournalHeader& header) {
                          {"virtual", header.is_virtual},
                          {"notes", notes},
                          {"warnings", header.warnings},
-                         {"mount_repeatability_deg", header.mount_repeatability_deg}};
+                         {"mount_repeatability_deg", header.mount_repeatability_deg},
+                         {"analyser_repeatability_deg", header.analyser_repeatability_deg}};
     if (header.has_spectrometer) {
         json["spectrometer"] = spectrometer_json(header.spectrometer);
     } else {
@@ -97,7 +98,8 @@ JournalHeader parse_journal_header(const std::string& text, const std::string& w
     const JsonDocument document = parse_json_tree(text, where);
     const JsonValue root(document);
     root.allow_keys({"format", "software", "started", "recipe", "bench_name", "bench", "virtual",
-                     "notes", "warnings", "mount_repeatability_deg", "spectrometer", "head"});
+                     "notes", "warnings", "mount_repeatability_deg", "analyser_repeatability_deg",
+                     "spectrometer", "head"});
     const JsonValue format = root.at("format");
     if (format.string() != format_name) {
         user_error_at(format.place(), "{} is '{}', expected '{}'", format.shown(), format.string(),
@@ -120,6 +122,7 @@ JournalHeader parse_journal_header(const std::string& text, const std::string& w
     }
     header.warnings = root.at("warnings").strings();
     header.mount_repeatability_deg = bounded(root.at("mount_repeatability_deg"), 0, 90);
+    header.analyser_repeatability_deg = bounded(root.at("analyser_repeatability_deg"), 0, 90);
     header.has_spectrometer = root.has("spectrometer");
     if (header.has_spectrometer) {
         header.spectrometer = read_spectrometer(root.at("spectrometer"));

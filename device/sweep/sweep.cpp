@@ -46,6 +46,9 @@ JournalHeader make_header(const Bench& bench, const Recipe& recipe,
     if (bench.polariser.rotator) {
         header.mount_repeatability_deg = bench.polariser.rotator->info().repeatability_deg;
     }
+    if (bench.analyser.rotator) {
+        header.analyser_repeatability_deg = bench.analyser.rotator->info().repeatability_deg;
+    }
     header.software = "drude " DRUDE_VERSION;
     // A virtual bench gives the same bytes whenever it is run.
     if (!bench.is_virtual) header.started = utc_now();
