@@ -69,6 +69,12 @@ void AptRotator::send(const AptMessage& message) {
     line_.write(encode_apt(message), deadline_in(1));
 }
 
+// What is there before anything was asked belongs to an earlier command. The chip hands over within
+// its latency time of 2 ms what it holds.
+void AptRotator::drop_late() {
+    if (line_.drain(0.004, deadline_in(0.1)) > 0) ++dropped_;
+}
+
 AptMessage AptRotator::receive(Deadline deadline) {
     std::vector<uint8_t> bytes = line_.read_exact(6, deadline);
     // A message that has begun is read to its end whatever the deadline: half of one that stays
@@ -136,7 +142,7 @@ void AptRotator::check(const AptStatus& status) const {
 // Sends a command and waits until its completion is announced, or until the mount stands still
 // though it was not (the announcement was lost).
 AptStatus AptRotator::finish(const AptMessage& command, uint16_t completed, double seconds) {
-    if (const size_t late = line_.discard_received(); late > 0) ++dropped_;
+    drop_late();
     send(command);
     const Deadline end = deadline_in(seconds + options_.silence_s);
     int standing = 0;
@@ -197,10 +203,14 @@ double AptRotator::move_to(double degrees) {
     command.id = apt::move_absolute;
     command.data = {channel, 0};
     append(&command.data, k10cr1_microsteps(degrees));
-    // A whole turn, whichever way it goes, with ramps at both ends.
-    const double seconds =
-        360 / options_.degrees_per_s + 2 * options_.degrees_per_s / options_.degrees_per_s2;
     for (int attempt = 0;; ++attempt) {
+        // It goes straight to a count of microsteps, over as many turns as that takes, with ramps
+        // at both ends.
+        drop_late();
+        const double microsteps =
+            std::abs(static_cast<double>(k10cr1_microsteps(degrees) - ask_status().position));
+        const double seconds = microsteps / info_.units_per_degree / options_.degrees_per_s +
+                               2 * options_.degrees_per_s / options_.degrees_per_s2;
         const AptStatus status = run(command, apt::move_completed, seconds);
         const double at = k10cr1_degrees(status.position);
         const double off = std::remainder(at - degrees, 360);
@@ -218,7 +228,7 @@ double AptRotator::move_to(double degrees) {
 }
 
 double AptRotator::position() {
-    line_.discard_received();
+    drop_late();
     return k10cr1_degrees(ask_status().position);
 }
 

@@ -50,6 +50,7 @@ class AptRotator : public Rotator {
 
   private:
     void send(const AptMessage& message);
+    void drop_late();
     AptMessage receive(Deadline deadline);
     AptMessage receive(uint16_t id, Deadline deadline);
     AptInfo start();

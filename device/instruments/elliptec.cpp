@@ -51,8 +51,9 @@ std::shared_ptr<ElliptecBus> ElliptecBus::of(const std::shared_ptr<UsbPort>& por
 }
 
 void ElliptecBus::send(char address, std::string_view command) {
-    // What was received and not asked for belongs to an earlier question.
-    if (line_.discard_received() > 0) ++dropped_;
+    // What is there before it is asked for belongs to an earlier question. The chip hands over
+    // within its latency time of 2 ms what it holds.
+    if (line_.drain(0.004, deadline_in(0.1)) > 0) ++dropped_;
     line_.write(address + std::string(command), deadline_in(1));
 }
 
@@ -102,6 +103,18 @@ double Elliptec::degrees_of(int64_t pulses) const {
     const int64_t turn = identity_.pulses_per_turn;
     const int64_t within = ((pulses % turn) + turn) % turn;
     return static_cast<double>(within) * 360 / static_cast<double>(turn);
+}
+
+double Elliptec::seen_at(int64_t pulses) {
+    seen_ = true;
+    last_deg_ = degrees_of(pulses);
+    return last_deg_;
+}
+
+// It may go either way round: the longer one is waited for.
+double Elliptec::seconds_to(double degrees) const {
+    const double away = std::abs(std::remainder(degrees - last_deg_, 360));
+    return (seen_ ? 360 - away : 360) / options_.degrees_per_s + start_stop_s;
 }
 
 int64_t Elliptec::ask_position() {
@@ -159,7 +172,7 @@ int64_t Elliptec::move(const std::string& command, double seconds) {
 
 void Elliptec::home() {
     // The digit is a direction: 0 is clockwise.
-    const double at = degrees_of(move("ho0", options_.home_s));
+    const double at = seen_at(move("ho0", options_.home_s));
     const double off = std::remainder(at, 360);
     if (std::abs(off) > home_tolerance_deg) {
         device_error(Fault::mechanical,
@@ -180,10 +193,8 @@ double Elliptec::move_to(double degrees) {
     const double fraction = degrees / 360 - std::floor(degrees / 360);
     const int64_t target = std::llround(fraction * turn) % identity_.pulses_per_turn;
     const std::string command = fmt::format("ma{:08X}", target);
-    // It may go either way round: the longer one is waited for.
-    const double seconds = 360 / options_.degrees_per_s + start_stop_s;
     for (int attempt = 0;; ++attempt) {
-        const double at = degrees_of(move(command, seconds));
+        const double at = seen_at(move(command, seconds_to(degrees)));
         const double off = std::remainder(at - degrees, 360);
         if (std::abs(off) <= options_.tolerance_deg) return degrees + off;
         if (attempt > 0) {
@@ -199,7 +210,7 @@ double Elliptec::move_to(double degrees) {
 
 double Elliptec::position() {
     home_after_reconnection();
-    return degrees_of(ask_position());
+    return seen_at(ask_position());
 }
 
 void Elliptec::recover() {

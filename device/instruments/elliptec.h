@@ -75,6 +75,8 @@ class Elliptec : public Rotator {
     int64_t move(const std::string& command, double seconds);
     void home_after_reconnection();
     double degrees_of(int64_t pulses) const;
+    double seen_at(int64_t pulses);
+    double seconds_to(double degrees) const;
     std::string where() const;
 
     std::shared_ptr<ElliptecBus> bus_;
@@ -82,6 +84,8 @@ class Elliptec : public Rotator {
     ElliptecOptions options_;
     ElliptecIdentity identity_;
     RotatorInfo info_;
+    double last_deg_ = 0;  // where it was last seen, in [0, 360)
+    bool seen_ = false;
     int connection_ = 0;  // of the bus, when this mount was last homed or opened
 };
 

@@ -59,7 +59,7 @@ class ObpSpectrometer : public Spectrometer {
         units_ = units;
         // The exposure that runs now keeps the time that it began with.
         running_s_ = std::max(running_s_, integration_s_);
-        integration_s_ = 1e-6 * model_.unit_us * units;
+        integration_s_ = 1.0 * model_.unit_us * units / 1e6;
     }
 
     void set_lamp(bool on) override {
@@ -128,8 +128,8 @@ class ObpSpectrometer : public Spectrometer {
         info_.model =
             fmt::format("{} {}", model_.second ? "Ocean Insight" : "Ocean Optics", model_.name);
         info_.max_counts = model_.max_counts;
-        info_.shortest_s = 1e-6 * model_.shortest_us;
-        info_.longest_s = 1e-6 * model_.longest_us;
+        info_.shortest_s = model_.shortest_us / 1e6;
+        info_.longest_s = model_.longest_us / 1e6;
         info_.dark_first = model_.dark_first;
         info_.dark_count = model_.dark_count;
         info_.wavelength_nm = polynomial_wavelengths(

@@ -29,6 +29,8 @@ struct ScpiCommands {
     // Rows in the order of the wavelengths, one number after the other: wavelength, psi, delta, or
     // these and sigma_psi, sigma_delta, or these and depolarization; degrees.
     std::string psi_delta = "MEAS:PSID?";
+    // Longest times to go to an angle and to measure there.
+    double move_s = 120, measure_s = 300;
 
     // Heads that return intensities. {} stands for the integration time in seconds.
     std::string integration = "SENS:INT {}";

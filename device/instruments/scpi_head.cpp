@@ -12,9 +12,6 @@ namespace drude {
 
 namespace {
 
-// Goniometers are slow, and so are heads that turn elements for every wavelength.
-constexpr double move_s = 120, measure_s = 600;
-
 class ScpiHead : public PsiDeltaHead {
   public:
     ScpiHead(std::shared_ptr<UsbPort> port, const ScpiCommands& commands)
@@ -31,8 +28,8 @@ class ScpiHead : public PsiDeltaHead {
                        link_.name(), incidence_deg);
         }
         const ScpiCommands& commands = link_.commands();
-        link_.command(scpi_command(commands.angle, format_double(incidence_deg)), move_s);
-        return scpi_rows(link_.ask_numbers(commands.psi_delta, measure_s), wavelengths_nm_,
+        link_.command(scpi_command(commands.angle, format_double(incidence_deg)), commands.move_s);
+        return scpi_rows(link_.ask_numbers(commands.psi_delta, commands.measure_s), wavelengths_nm_,
                          incidence_deg, link_.name());
     }
     void recover() override { link_.recover(); }

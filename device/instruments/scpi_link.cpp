@@ -48,18 +48,26 @@ void ScpiLink::start() {
 }
 
 std::string ScpiLink::ask_once(const std::string& question, double seconds) {
+    std::string why;
     try {
         return tmc_.ask(question + "\n", seconds);
     } catch (const DeviceError& error) {
         if (error.fault() != Fault::timeout) throw;
-        device_error(Fault::timeout, "{}: no answer to '{}' within {} s", name(), question,
-                     seconds);
     }
+    // An instrument that does not know a question says so in its queue and nowhere else.
+    try {
+        if (question != commands_.next_error) why = queued_errors();
+    } catch (const DeviceError& error) {
+        if (error.fault() == Fault::unplugged) throw;
+    }
+    device_error(Fault::timeout, "{}: no answer to '{}' within {} s{}{}", name(), question, seconds,
+                 why.empty() ? "" : "; it reports error ", why);
 }
 
-void ScpiLink::check_errors(const std::string& about) {
-    if (commands_.next_error.empty()) return;
+// All that the queue holds, in words; "" where it is empty.
+std::string ScpiLink::queued_errors() {
     std::string words;
+    if (commands_.next_error.empty()) return words;
     for (int count = 0; count < most_errors; ++count) {
         const ScpiError error =
             parse_scpi_error(ask_once(commands_.next_error, short_answer_s), name());
@@ -67,15 +75,14 @@ void ScpiLink::check_errors(const std::string& about) {
         if (!words.empty()) words += "; ";
         words += scpi_error_words(error);
     }
+    return words;
+}
+
+void ScpiLink::check_errors(const std::string& about) {
+    const std::string words = queued_errors();
     if (!words.empty()) {
         device_error(Fault::refused, "{}: answers to '{}' with error {}", name(), about, words);
     }
-}
-
-std::string ScpiLink::ask(const std::string& question, double seconds) {
-    const std::string answer = without_line_end(ask_once(question, seconds));
-    check_errors(question);
-    return answer;
 }
 
 std::vector<double> ScpiLink::ask_numbers(const std::string& question, double seconds) {

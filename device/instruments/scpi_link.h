@@ -21,9 +21,8 @@ class ScpiLink {
     // "usbtmc:1209:5e11:SERIAL".
     std::string uri();
 
-    // The answer without its line feed. Throws DeviceError: that of the transfer, or refused with
-    // the errors that the instrument's queue holds afterwards.
-    std::string ask(const std::string& question, double seconds);
+    // Throws DeviceError: that of the transfer or of the answer's form, or refused with the errors
+    // that the instrument's queue holds afterwards.
     std::vector<double> ask_numbers(const std::string& question, double seconds);
     // Sends a command and waits until the instrument says that it is done.
     void command(const std::string& text, double seconds);
@@ -38,6 +37,7 @@ class ScpiLink {
   private:
     void start();
     std::string ask_once(const std::string& question, double seconds);
+    std::string queued_errors();
     void check_errors(const std::string& about);
 
     Usbtmc tmc_;

@@ -69,6 +69,12 @@ void BlockSolver::solve(const Factors& factors, const Block& block, int used, Bl
     const int m = steps_.columns;
     y_ = block.y;
     v_ = block.variance;
+    // What has no weight may be anything, but it has to be a number.
+    for (size_t k = 0; k < rows; ++k) {
+        if (factors.weights[k] > 0) continue;
+        std::fill_n(&y_[k * lanes], lanes, 0.0);
+        std::fill_n(&v_[k * lanes], lanes, 0.0);
+    }
     Lane first_drift = {};
     if (steps_.drift) remove_drift(factors, first_drift);
     // Coefficients without the time's column, then the part of that column that the others do

@@ -112,23 +112,63 @@ LinearCounts linear_counts(double counts_less_dark, const std::vector<double>& p
 
 namespace {
 
-// Fills lane l of the block with the readings of pixel j and returns whether one was saturated;
-// `mask` gets 1 for those.
-bool load_pixel(const Scan& scan, const std::vector<double>& polynomial,
-                const std::vector<DesignRow>& design, double s1, double s2, size_t j, int l,
-                Block* block, std::string* mask) {
-    bool saturated = false;
+// linear_counts() of a lane each.
+void linearise(const std::vector<double>& polynomial, double* y, double* variance) {
+    if (polynomial.empty()) return;
+    Lane value = {}, slope = {};
+    for (size_t i = polynomial.size(); i-- > 0;) {
+        for (int l = 0; l < lanes; ++l) {
+            slope[l] = slope[l] * y[l] + value[l];
+            value[l] = value[l] * y[l] + polynomial[i];
+        }
+    }
+    for (int l = 0; l < lanes; ++l) {
+        const double positive = value[l] > 0 ? value[l] : std::numeric_limits<double>::quiet_NaN();
+        const double derivative = (positive - y[l] * slope[l]) / (positive * positive);
+        y[l] /= positive;
+        variance[l] *= derivative * derivative;
+    }
+}
+
+// Fills the block with the readings of pixels j to j + used; lanes beyond repeat the last of them.
+// Returns whether one of them was saturated at any step.
+bool load_block(const Scan& scan, const std::vector<double>& polynomial, const Calibration& bench,
+                const std::vector<double>& nm, const std::vector<DesignRow>& design, size_t j,
+                int used, Block* block) {
+    size_t pixel[lanes];
+    Lane dark, s1, s2;
+    for (int l = 0; l < lanes; ++l) {
+        pixel[l] = j + static_cast<size_t>(std::min(l, used - 1));
+        dark[l] = scan.dark[pixel[l]];
+        s1[l] = bench.source_s1.at(nm[pixel[l]], 0);
+        s2[l] = bench.source_s2.at(nm[pixel[l]], 0);
+    }
+    int saturated = 0;
     for (size_t k = 0; k < scan.steps.size(); ++k) {
         const ScanStep& step = scan.steps[k];
-        const LinearCounts linear = linear_counts(step.counts[j] - scan.dark[j], polynomial);
-        const double source = 1 / (1 - s1 * design[k][cos_2p] - s2 * design[k][sin_2p]);
-        const double slope = linear.slope * source;
-        block->y[k * lanes + l] = linear.value * source;
-        block->variance[k * lanes + l] = step.variance[j] * slope * slope;
-        (*mask)[k] = step.saturated[j] ? '\1' : '\0';
-        saturated = saturated || step.saturated[j];
+        const double c = design[k][cos_2p], s = design[k][sin_2p];
+        double* y = &block->y[k * lanes];
+        double* v = &block->variance[k * lanes];
+        for (int l = 0; l < lanes; ++l) {
+            y[l] = step.counts[pixel[l]] - dark[l];
+            v[l] = step.variance[pixel[l]];
+            saturated |= step.saturated[pixel[l]];
+        }
+        linearise(polynomial, y, v);
+        for (int l = 0; l < lanes; ++l) {
+            const double source = 1 / (1 - s1[l] * c - s2[l] * s);
+            y[l] *= source;
+            v[l] *= source * source;
+        }
     }
-    return saturated;
+    return saturated != 0;
+}
+
+// The steps at which pixel j is saturated, as bytes.
+std::string saturation_mask(const Scan& scan, size_t j) {
+    std::string mask(scan.steps.size(), '\0');
+    for (size_t k = 0; k < mask.size(); ++k) mask[k] = scan.steps[k].saturated[j] ? '\1' : '\0';
+    return mask;
 }
 
 struct Sums {
@@ -230,54 +270,45 @@ ScanFit fit_scan(const Scan& scan, const SpectrometerInfo& spectrometer,
     BlockSolver solver(steps);
     AzimuthEvidence evidence{std::vector<double>(rows, 0), std::vector<double>(rows, 0)};
     Block block{std::vector<double>(rows * lanes, 0), std::vector<double>(rows * lanes, 0)};
-    Block single = block;
-    std::string mask(rows, '\0');  // of saturated steps
     std::map<std::string, Factors> masked;
-    size_t members[lanes] = {};
-    int used = 0;
     Sums sums;
-    const auto flush = [&] {
-        if (used == 0) return;
+    for (size_t j = first; j < last; j += lanes) {
+        const int used = static_cast<int>(std::min<size_t>(lanes, last - j));
+        const auto keep = [&](const BlockFit& fit, int l) {
+            store_pixel(fit, l, steps.columns, scan.dark_variance[j + l], j + l, &result, &sums);
+        };
         BlockFit fit = {};
-        solver.solve(shared, block, used, &fit, &evidence);
-        for (int l = 0; l < used; ++l) {
-            store_pixel(fit, l, steps.columns, scan.dark_variance[members[l]], members[l], &result,
-                        &sums);
-        }
-        used = 0;
-    };
-    for (size_t j = first; j < last; ++j) {
-        const double s1 = calibration.source_s1.at(nm[j], 0);
-        const double s2 = calibration.source_s2.at(nm[j], 0);
-        if (!load_pixel(scan, spectrometer.nonlinearity, steps.design, s1, s2, j, used, &block,
-                        &mask)) {
-            members[used++] = j;
-            if (used == lanes) flush();
+        if (!load_block(scan, spectrometer.nonlinearity, calibration, nm, steps.design, j, used,
+                        &block)) {
+            solver.solve(shared, block, used, &fit, &evidence);
+            for (int l = 0; l < used; ++l) keep(fit, l);
             continue;
         }
-        // Neighbours are saturated at the same steps as a rule, so there are few masks.
-        auto found = masked.find(mask);
-        if (found == masked.end()) {
-            std::vector<double> left = weights;
-            for (size_t k = 0; k < rows; ++k) {
-                if (mask[k]) left[k] = 0;
+        // Neighbours are saturated at the same steps as a rule: a block is solved once for each of
+        // its few masks.
+        std::string solved;
+        bool usable = false;
+        for (int l = 0; l < used; ++l) {
+            const std::string mask = saturation_mask(scan, j + l);
+            result.quality.saturated +=
+                static_cast<int>(std::count(mask.begin(), mask.end(), '\1'));
+            if (mask != solved) {
+                auto found = masked.find(mask);
+                if (found == masked.end()) {
+                    std::vector<double> left = weights;
+                    for (size_t k = 0; k < rows; ++k) left[k] = mask[k] ? 0 : left[k];
+                    found = masked
+                                .emplace(mask,
+                                         make_factors(steps, result.polariser_rad, std::move(left)))
+                                .first;
+                }
+                usable = found->second.usable;
+                if (usable) solver.solve(found->second, block, used, &fit, nullptr);
+                solved = mask;
             }
-            found = masked.emplace(mask, make_factors(steps, result.polariser_rad, left)).first;
+            if (usable) keep(fit, l);
         }
-        result.quality.saturated += static_cast<int>(std::count(mask.begin(), mask.end(), '\1'));
-        if (!found->second.usable) continue;
-        for (size_t k = 0; k < rows; ++k) {
-            // A saturated reading has no weight, but it has to be a number.
-            const bool out = mask[k] != 0;
-            std::fill_n(&single.y[k * lanes], lanes, out ? 0 : block.y[k * lanes + used]);
-            std::fill_n(&single.variance[k * lanes], lanes,
-                        out ? 0 : block.variance[k * lanes + used]);
-        }
-        BlockFit fit = {};
-        solver.solve(found->second, single, 1, &fit, nullptr);
-        store_pixel(fit, 0, steps.columns, scan.dark_variance[j], j, &result, &sums);
     }
-    flush();
 
     result.quality.incidence_deg = scan.incidence_deg;
     result.quality.analyser_deg = scan.analyser_deg;

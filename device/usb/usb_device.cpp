@@ -79,6 +79,7 @@ class LibusbPort : public UsbPort {
     uint16_t vendor() const override { return vendor_; }
     uint16_t product() const override { return product_; }
     bool high_speed() const override { return high_speed_; }
+    uint8_t interface_number() const override { return static_cast<uint8_t>(interface_.number); }
     size_t packet_size(uint8_t endpoint) const override {
         const auto found = interface_.endpoints.find(endpoint);
         return found == interface_.endpoints.end() ? 0 : found->second.packet_size;

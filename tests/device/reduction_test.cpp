@@ -382,7 +382,7 @@ TEST(Reduction, CommonSigmaIsWhatMountsThatMissDo) {
     OracleBench bench;
     bench.jitter_deg = 0.05;
     bench.analyser_jitter_deg = 0.02;
-    double psi = 0, delta = 0, bias = 0;
+    double psi = 0, delta = 0;
     const int draws = 3000;
     Reduction r;
     for (int i = 0; i < draws; ++i) {
@@ -392,7 +392,6 @@ TEST(Reduction, CommonSigmaIsWhatMountsThatMissDo) {
             o->mount_repeatability_deg = 0.05;
             o->analyser_repeatability_deg = 0.02;
         });
-        bias += (r.rows[0].psi_deg - 41.3) / draws;
         psi += std::pow(r.rows[0].psi_deg - 41.3, 2) / draws;
         delta += std::pow(r.rows[0].delta_deg - 120, 2) / draws;
     }

@@ -29,6 +29,8 @@ the program's status; 125 where it left something behind, 124 where it hung.
   --count                  print how many answers there were
   --answers FILE           list them
   --report FILE            what happened, as JSON
+  --bench-out FILE         the bench file (JSON) that says what the devices are, with a calibration
+                           beside it
   --on-failure             another command for the same devices, with everything plugged in and no
                            faults, where the first fails
 )";
@@ -89,10 +91,10 @@ BenchOptions parse_bench_options(const std::vector<std::string>& words) {
     options.settings.first_nm = 340;
     options.settings.last_nm = 340 + 0.1354 * 3839;
     options.settings.full_scale_s = 0.002;
-    static const std::vector<std::string> known{"--device",       "--fault",    "--random-faults",
-                                                "--material",     "--settings", "--frozen-noise",
-                                                "--move-seconds", "--seconds",  "--no-inspect",
-                                                "--count",        "--answers",  "--report"};
+    static const std::vector<std::string> known{
+        "--device",       "--fault",        "--random-faults", "--material",   "--settings",
+        "--frozen-noise", "--move-seconds", "--seconds",       "--no-inspect", "--count",
+        "--answers",      "--report",       "--bench-out"};
     size_t i = 0;
     for (; i < words.size() && words[i] != "--"; ++i) {
         const std::string& option = words[i];
@@ -125,6 +127,8 @@ BenchOptions parse_bench_options(const std::vector<std::string>& words) {
             options.count = true;
         } else if (option == "--answers") {
             options.answers_file = value();
+        } else if (option == "--bench-out") {
+            options.bench_file = value();
         } else if (option == "--report") {
             options.report_file = value();
         } else {

@@ -26,7 +26,7 @@ struct BenchOptions {
     double seconds_allowed = 60;
     bool inspect = true;
     bool count = false;
-    std::string answers_file, report_file;
+    std::string answers_file, report_file, bench_file;
     std::vector<std::string> command;
     std::vector<std::string> on_failure;  // run after it, on the same bench without faults
 };

@@ -65,18 +65,31 @@ std::vector<std::string> descriptors_below(pid_t pid, const std::string& root) {
     return found;
 }
 
-// Names of libusb's own threads; pools for parallel loops live as long as their program.
+// Names of libusb's own threads that live; pools for parallel loops live as long as their program.
 std::vector<std::string> libusb_threads(pid_t pid) {
     std::vector<std::string> found;
     std::error_code error;
     for (const auto& entry :
          std::filesystem::directory_iterator(fmt::format("/proc/{}/task", pid), error)) {
-        std::ifstream file(entry.path() / "comm");
-        std::string name;
-        std::getline(file, name);
-        if (name.find("libusb") != std::string::npos) found.push_back("thread " + name);
+        std::ifstream file(entry.path() / "stat");
+        std::string stat;
+        std::getline(file, stat);
+        // "1234 (name) S ...": a thread that ended is a zombie until its tracer has waited for it.
+        const size_t end = stat.rfind(')');
+        if (stat.find("libusb") >= end || stat.compare(end, 3, ") Z") == 0) continue;
+        found.push_back("thread " + stat.substr(stat.find('(') + 1, end - stat.find('(') - 1));
     }
     return found;
+}
+
+// A thread that was joined may be listed for another moment.
+std::vector<std::string> lasting_threads(pid_t pid) {
+    std::vector<std::string> threads = libusb_threads(pid);
+    for (int i = 0; i < 100 && !threads.empty(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        threads = libusb_threads(pid);
+    }
+    return threads;
 }
 
 [[noreturn]] void become(const std::vector<std::string>& command, const ClientOptions& options,
@@ -134,7 +147,7 @@ ClientRun run_client(const std::vector<std::string>& command, const ClientOption
             const int event = status >> 16;
             if (event == PTRACE_EVENT_SECCOMP && who == pid) {
                 run.left_over = descriptors_below(pid, options.device_root);
-                for (std::string& thread : libusb_threads(pid)) run.left_over.push_back(thread);
+                for (std::string& thread : lasting_threads(pid)) run.left_over.push_back(thread);
                 if (options.at_exit) options.at_exit();
             }
             const long signal = event != 0 ? 0 : WSTOPSIG(status);

@@ -1,5 +1,7 @@
 #include "usb_bench/fault_plan.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "base/counter_random.h"
@@ -118,8 +120,13 @@ std::vector<PlannedFault> random_faults(uint64_t seed, int count, uint64_t range
 
 std::optional<PlannedFault> FaultPlan::next(const std::string& device, const AnswerShape& shape) {
     const uint64_t index = answers_.size();
-    answers_.push_back(
-        fmt::format("{} {} {} {}", index, device, shape.incoming ? "in" : "out", shape.what));
+    std::vector<std::string> kinds;
+    for (const Word& word : words) {
+        if (can_suffer(shape, word.kind)) kinds.push_back(word.word);
+    }
+    answers_.push_back(fmt::format("{}\t{}\t{}\t{}\t{}", index, device,
+                                   shape.incoming ? "in" : "out", shape.what,
+                                   fmt::join(kinds, " ")));
     for (const PlannedFault& fault : faults_) {
         if (fault.index != index) continue;
         if (!can_suffer(shape, fault.kind)) {

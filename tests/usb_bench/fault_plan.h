@@ -69,7 +69,8 @@ class FaultPlan {
     bool upcoming(FaultKind kind) const;
 
     uint64_t count() const { return answers_.size(); }
-    // "12 ooi:USB4C00001 in frame, first part", one an answer.
+    // Number, device, "in" or "out", what it is, and the faults that it can suffer, separated by
+    // tabs; one an answer.
     const std::vector<std::string>& answers() const { return answers_; }
     int applied() const { return applied_; }
     const std::vector<std::string>& not_applicable() const { return not_applicable_; }

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -16,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "device/virtual/virtual_bench.h"
 #include "materials/material.h"
 #include "usb_bench/bench_options.h"
 #include "usb_bench/client.h"
@@ -27,6 +29,39 @@ namespace drude::usb_bench {
 namespace {
 
 constexpr int left_something = 125, hung = 124;
+
+// The bench file of the devices (device/sweep/bench_file.h), with the calibration that the settings
+// amount to beside it.
+void write_bench_file(const BenchOptions& options) {
+    const auto find = [&](const std::string& scheme) -> const DeviceOption* {
+        for (const DeviceOption& device : options.devices) {
+            if (device.scheme == scheme) return &device;
+        }
+        return nullptr;
+    };
+    nlohmann::ordered_json bench = {{"format", "drude-bench/1"}, {"name", "virtual USB bench"}};
+    if (const DeviceOption* device = find("ooi")) bench["spectrometer"] = "ooi:" + device->serial;
+    if (const DeviceOption* device = find("obp")) bench["spectrometer"] = "obp:" + device->serial;
+    if (const DeviceOption* device = find("ell")) {
+        const std::string uri = "ell:" + device->serial;
+        bench["polariser"] = {{"rotator", uri + "/0"}};
+        bench["analyser"] = {{"rotator", uri + "/1"}};
+        bench["retarder"] = {{"rotator", uri + "/2"}, {"in_deg", 0}, {"out_deg", 90}};
+    }
+    const DeviceOption *sample = find("apt-sample"), *arm = find("apt-arm");
+    if (sample != nullptr && arm != nullptr) {
+        bench["goniometer"] = {{"sample", {{"rotator", "apt:" + sample->serial}}},
+                               {"arm", {{"rotator", "apt:" + arm->serial}}}};
+    } else {
+        bench["goniometer"] = {{"fixed_deg", options.incidence_deg}};
+    }
+    const std::filesystem::path path = options.bench_file;
+    const std::string calibration = path.stem().string() + "-calibration.json";
+    bench["calibration"] = calibration;
+    write_file((path.parent_path() / calibration).string(),
+               format_calibration(true_calibration(options.settings)));
+    write_file(options.bench_file, bench.dump(1) + "\n");
+}
 
 // Kills the client at an answer; it is known only once it runs.
 class Killer {
@@ -96,6 +131,7 @@ int work(const BenchOptions& options) {
     for (size_t i = 0; i < devices.size(); ++i) {
         bed.plug(*devices[i], {options.devices[i].refused, options.devices[i].busy});
     }
+    if (!options.bench_file.empty()) write_bench_file(options);
     Killer killer(faults);
     nlohmann::ordered_json report;
     std::vector<std::string> troubles;

@@ -52,10 +52,13 @@ UsbfsNode::UsbfsNode(VirtualDevice& device, std::mutex& lock, NodeFaults faults)
       driver_bound_(!device.identity().kernel_driver.empty()) {
     g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(on_ioctl), this);
     g_signal_connect(handler_, "client-connected", G_CALLBACK(on_connected), this);
-    g_signal_connect(handler_, "client-vanished", G_CALLBACK(on_vanished), this);
 }
 
 UsbfsNode::~UsbfsNode() {
+    for (UMockdevIoctlClient* client : clients_) {
+        g_signal_handlers_disconnect_by_data(client, this);
+        g_object_unref(client);
+    }
     g_signal_handlers_disconnect_by_data(handler_, this);
     g_object_unref(handler_);
 }
@@ -70,20 +73,41 @@ gboolean UsbfsNode::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gp
 void UsbfsNode::on_connected(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
     auto* node = static_cast<UsbfsNode*>(self);
     const std::lock_guard guard(node->lock_);
+    node->clean_up();
     node->clients_.insert(client);
+    g_object_ref(client);
+    // The signal that is called client-vanished never comes (umockdev 0.17.16).
+    g_signal_connect(client, "notify::connected", G_CALLBACK(on_closed), self);
 }
 
-void UsbfsNode::on_vanished(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
+void UsbfsNode::on_closed(UMockdevIoctlClient*, GParamSpec*, gpointer self) {
     auto* node = static_cast<UsbfsNode*>(self);
     const std::lock_guard guard(node->lock_);
-    node->clients_.erase(client);
-    if (node->holder_ == client) node->holder_ = nullptr;
-    if (!node->clients_.empty()) return;
-    // The kernel kills what a closed descriptor left in flight; it does not bind a driver again.
-    if (!node->disconnected_) node->device_.forget_transfers();
-    node->complete_.clear();
-    for (auto& block : node->blocks_) g_object_unref(block.second);
-    node->blocks_.clear();
+    node->clean_up();
+}
+
+void UsbfsNode::clean_up() {
+    for (auto it = clients_.begin(); it != clients_.end();) {
+        UMockdevIoctlClient* client = *it;
+        if (umockdev_ioctl_client_get_connected(client)) {
+            ++it;
+            continue;
+        }
+        it = clients_.erase(it);
+        if (holder_ == client) holder_ = nullptr;
+        // The kernel kills what a closed descriptor left in flight; it binds no driver again.
+        for (auto block = blocks_.begin(); block != blocks_.end();) {
+            if (block->second.client != client) {
+                ++block;
+                continue;
+            }
+            if (!disconnected_) device_.forget(block->first);
+            g_object_unref(block->second.data);
+            block = blocks_.erase(block);
+        }
+        g_signal_handlers_disconnect_by_data(client, this);
+        g_object_unref(client);
+    }
 }
 
 void UsbfsNode::disconnect() {
@@ -94,7 +118,13 @@ void UsbfsNode::disconnect() {
     holder_ = nullptr;
 }
 
-std::vector<std::string> UsbfsNode::held() const {
+int UsbfsNode::open_count() {
+    clean_up();
+    return static_cast<int>(clients_.size());
+}
+
+std::vector<std::string> UsbfsNode::held() {
+    clean_up();
     std::vector<std::string> held;
     const std::string& name = device_.identity().name;
     if (!clients_.empty()) held.push_back(fmt::format("{}: {} descriptors", name, clients_.size()));
@@ -122,7 +152,7 @@ bool UsbfsNode::reap(UMockdevIoctlClient* client) {
     if (!transfer) return false;
     const auto found = blocks_.find(transfer->cookie);
     if (found == blocks_.end()) return false;
-    UMockdevIoctlData* block = found->second;
+    UMockdevIoctlData* block = found->second.data;
     blocks_.erase(found);
     auto* urb = view<usbdevfs_urb>(block);
     urb->status = transfer->status;
@@ -191,7 +221,7 @@ void UsbfsNode::submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument)
             fmt::format("{}: a transfer without claiming the interface", device_.identity().name));
     }
     if (!transfer.incoming() && bytes != nullptr) transfer.data.assign(bytes, transfer.length);
-    blocks_[transfer.cookie] = block;
+    blocks_[transfer.cookie] = {block, client};
     device_.submit(std::move(transfer));
     complete(client, 0, 0);
     if (buffer != nullptr) g_object_unref(buffer);
@@ -229,6 +259,7 @@ int UsbfsNode::driver_ioctl(UMockdevIoctlData* argument) {
 }
 
 void UsbfsNode::handle(UMockdevIoctlClient* client) {
+    clean_up();
     UMockdevIoctlData* argument = umockdev_ioctl_client_get_arg(client);
     const unsigned request = number_of(umockdev_ioctl_client_get_request(client));
     const bool after_all = request == number_of(USBDEVFS_REAPURBNDELAY) ||

@@ -36,8 +36,8 @@ class UsbfsNode {
 
     // What the client still holds: descriptors, interfaces, transfers, and a kernel driver that it
     // took off and did not put back. Empty: nothing. The caller holds the lock.
-    std::vector<std::string> held() const;
-    int open_count() const { return static_cast<int>(clients_.size()); }
+    std::vector<std::string> held();
+    int open_count();
     int detached_count() const { return detached_count_; }  // ever
     // What the client did that the kernel complains of.
     const std::vector<std::string>& complaints() const { return complaints_; }
@@ -45,10 +45,12 @@ class UsbfsNode {
   private:
     static gboolean on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
     static void on_connected(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
-    static void on_vanished(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
+    static void on_closed(UMockdevIoctlClient*, GParamSpec*, gpointer self);
     static gboolean on_wait(gpointer waiting);
     struct Waiting;
 
+    // Sees to what clients left that closed their descriptor.
+    void clean_up();
     void handle(UMockdevIoctlClient* client);
     void submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
     bool reap(UMockdevIoctlClient* client);
@@ -63,9 +65,13 @@ class UsbfsNode {
     bool disconnected_ = false;
     bool driver_bound_;
     int detached_count_ = 0;
-    std::set<UMockdevIoctlClient*> clients_;
-    UMockdevIoctlClient* holder_ = nullptr;          // of the interface
-    std::map<uint64_t, UMockdevIoctlData*> blocks_;  // the client's URBs, by their addresses
+    std::set<UMockdevIoctlClient*> clients_;  // one a descriptor, with a reference
+    UMockdevIoctlClient* holder_ = nullptr;   // of the interface
+    struct Block {
+        UMockdevIoctlData* data;
+        UMockdevIoctlClient* client;
+    };
+    std::map<uint64_t, Block> blocks_;  // clients' URBs, by their addresses
     std::deque<Transfer> complete_;
     std::vector<std::string> complaints_;
 };

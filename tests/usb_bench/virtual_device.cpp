@@ -193,16 +193,13 @@ std::optional<Transfer> VirtualDevice::reap() {
     return first;
 }
 
-size_t VirtualDevice::in_flight() const {
-    size_t count = done_.size() + ignored_.size();
-    for (const auto& endpoint : waiting_) count += endpoint.second.size();
-    return count;
-}
-
-void VirtualDevice::forget_transfers() {
-    done_.clear();
-    ignored_.clear();
-    waiting_.clear();
+void VirtualDevice::forget(uint64_t cookie) {
+    const auto drop = [&](std::deque<Transfer>& from) {
+        std::erase_if(from, [&](const Transfer& one) { return one.cookie == cookie; });
+    };
+    drop(done_);
+    drop(ignored_);
+    for (auto& endpoint : waiting_) drop(endpoint.second);
 }
 
 void VirtualDevice::pump() {

@@ -85,10 +85,8 @@ class VirtualDevice {
     bool cancel(uint64_t cookie);
     // The next transfer that is complete, if any.
     std::optional<Transfer> reap();
-    // Transfers that wait or were not reaped.
-    size_t in_flight() const;
-    // The host is gone without reaping.
-    void forget_transfers();
+    // The host that submitted it is gone.
+    void forget(uint64_t cookie);
     void clear_halt(uint8_t endpoint) { halted_.erase(endpoint); }
     void reset();
 

@@ -58,7 +58,7 @@ int work(const BenchOptions& options) {
         std::string text;
         for (uint64_t i = 0; i < count; ++i) {
             const std::string& answer = faults.answers()[first + i];
-            text += fmt::format("{}{}\n", i, answer.substr(answer.find(' ')));
+            text += fmt::format("{}{}\n", i, answer.substr(answer.find('\t')));
         }
         write_file(options.answers_file, text);
     }

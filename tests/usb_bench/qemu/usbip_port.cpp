@@ -64,7 +64,6 @@ bool UsbipPort::attach() {
     }
     socket_ = pair[0];
     reader_ = {};
-    taken_back_.clear();
     return true;
 }
 
@@ -73,7 +72,9 @@ void UsbipPort::detach() {
     shutdown(socket_, SHUT_RDWR);
     close(socket_);
     socket_ = -1;
-    device_.forget_transfers();
+    for (const uint64_t cookie : under_way_) device_.forget(cookie);
+    under_way_.clear();
+    taken_back_.clear();
 }
 
 void UsbipPort::serve() {
@@ -121,6 +122,7 @@ void UsbipPort::obey(const UsbipCommand& command) {
     transfer.setup = command.setup;
     transfer.length = command.length;
     transfer.data = command.data;
+    under_way_.insert(transfer.cookie);
     device_.submit(std::move(transfer));
 }
 
@@ -128,6 +130,7 @@ void UsbipPort::answer() {
     while (socket_ >= 0) {
         const std::optional<Transfer> transfer = device_.reap();
         if (!transfer) return;
+        under_way_.erase(transfer->cookie);
         if (taken_back_.erase(transfer->cookie) != 0) continue;
         const auto sequence = static_cast<uint32_t>(transfer->cookie);
         if (transfer->incoming()) {

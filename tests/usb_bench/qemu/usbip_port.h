@@ -54,7 +54,8 @@ class UsbipPort {
     int socket_ = -1;
     uint64_t commands_ = 0;
     UsbipReader reader_;
-    std::set<uint64_t> taken_back_;  // transfers that the kernel wants to hear no more of
+    std::set<uint64_t> under_way_;   // transfers that the device has and that were not answered
+    std::set<uint64_t> taken_back_;  // those of them that the kernel wants to hear no more of
 };
 
 }  // namespace drude::usb_bench

@@ -1,0 +1,165 @@
+#include "usb_bench/capture_runs.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/files.h"
+
+namespace drude {
+
+// 20 ms are long against what the host does between two frames, so that how many stale frames there
+// are does not depend on how busy the machine is.
+const char* const short_recipe = R"({"format": "drude-recipe/1", "sample": "Cu-McPeak",
+ "angles_deg": [70], "steps": 4, "cycles": 1, "zones_deg": [45], "averages": 1, "dark_frames": 1,
+ "integration_s": 0.02, "harmonic_4": false, "drift": false, "shuffle": true, "seed": 1,
+ "first_nm": 400, "last_nm": 780, "step_nm": 20}
+)";
+
+namespace {
+
+// Full scale well above 20 ms of the sample's light; everything else a bench without faults.
+constexpr const char* settings = R"({"pixels": 3840, "first_nm": 340, "last_nm": 859.8006,
+ "full_scale_s": 0.03, "dark_counts": 1500})";
+
+std::string text_of(const std::string& path) {
+    return std::filesystem::exists(path) ? read_file(path) : "";
+}
+
+// The first line with which drude itself ends, which names what failed.
+std::string error_line(const std::string& text) {
+    std::istringstream stream(text);
+    std::string line, last;
+    while (std::getline(stream, line)) {
+        if (line.rfind("drude: ", 0) == 0) last = line;
+    }
+    return last;
+}
+
+const JournalPoint* point_of(const Journal& journal, uint32_t index) {
+    for (const JournalPoint& point : journal.points) {
+        if (point.index == index) return &point;
+    }
+    return nullptr;
+}
+
+bool is_saturated(const JournalPoint& point, uint32_t max_counts) {
+    return std::any_of(point.frames.begin(), point.frames.end(), [&](const Frame& frame) {
+        return std::find(frame.counts.begin(), frame.counts.end(), max_counts) !=
+               frame.counts.end();
+    });
+}
+
+void compare(const CaptureResult& truth, CaptureResult* result) {
+    const auto trouble = [&](const std::string& text) { result->troubles.push_back(text); };
+    if (!result->journal.complete) trouble("the journal is not complete");
+    const uint32_t max_counts = truth.journal.header->spectrometer.max_counts;
+    bool saturated = false;
+    for (uint32_t i = 0; i < truth.journal.plan.size(); ++i) {
+        const JournalPoint *ours = point_of(result->journal, i),
+                           *theirs = point_of(truth.journal, i);
+        if (ours == nullptr || theirs == nullptr) {
+            trouble(fmt::format("point {} is missing", i));
+            continue;
+        }
+        if (is_saturated(*ours, max_counts)) {
+            saturated = true;
+            continue;
+        }
+        if (ours->frames.size() != theirs->frames.size()) {
+            trouble(fmt::format("point {} has {} frames", i, ours->frames.size()));
+            continue;
+        }
+        for (size_t k = 0; k < ours->frames.size(); ++k) {
+            if (ours->frames[k].counts != theirs->frames[k].counts) {
+                trouble(fmt::format("frame {} of point {} differs", k, i));
+            }
+        }
+    }
+    // A reading less is another quantisation.
+    const double tolerance = saturated ? 0.05 : 1e-9;
+    const auto& rows = result->measurement.rows;
+    const auto& true_rows = truth.measurement.rows;
+    if (rows.size() != true_rows.size()) {
+        trouble(fmt::format("{} rows instead of {}", rows.size(), true_rows.size()));
+        return;
+    }
+    double worst = 0;
+    for (size_t i = 0; i < rows.size(); ++i) {
+        worst = std::max({worst, std::abs(rows[i].psi_deg - true_rows[i].psi_deg),
+                          std::abs(rows[i].delta_deg - true_rows[i].delta_deg)});
+    }
+    if (!(worst <= tolerance)) {
+        trouble(fmt::format("Psi or Delta is {} degrees from the uninterrupted run", worst));
+    }
+}
+
+}  // namespace
+
+CaptureResult run_capture_cell(const std::string& build, const std::string& folder,
+                               const CaptureCell& cell, const CaptureResult* reference) {
+    std::filesystem::remove_all(folder);
+    make_folder(folder);
+    const auto file = [&](const std::string& name) { return folder + "/" + name; };
+    write_file(file("recipe.json"), short_recipe);
+    write_file(file("settings.json"), settings);
+    std::string faults;
+    std::istringstream words(cell.faults);
+    for (std::string word; words >> word;) faults += " --fault " + word;
+    const auto capture = [&](const std::string& more, const std::string& errors) {
+        return fmt::format(
+            "sh -c 'exec \"{}/drude\" capture recipe.json --instrument bench.json -o m.csv --json "
+            "--wait {} {} > {}.json 2> {}'",
+            build, cell.wait_s, more, errors, errors);
+    };
+    const std::string command = fmt::format(
+        "cd '{}' && '{}/usb-bench' --device ooi:USB4C00001 --device ell:DK0AELL1 "
+        "--device apt-sample:55000001 --device apt-arm:55000002 --settings "
+        "settings.json --bench-out bench.json --report report.json --answers "
+        "answers.txt{} -- {} --on-failure {} > bench.out 2>&1 < /dev/null",
+        folder, build, faults, capture("", "first.err"), capture("--resume", "second.err"));
+    const int raw = std::system(command.c_str());
+
+    CaptureResult result;
+    result.answer_list = text_of(file("answers.txt"));
+    const std::string report_text = text_of(file("report.json"));
+    if (report_text.empty()) {
+        result.troubles.push_back(
+            fmt::format("usb-bench ended with {}: {}", raw, text_of(file("bench.out"))));
+        return result;
+    }
+    const nlohmann::json report = nlohmann::json::parse(report_text);
+    result.status = report["status"];
+    result.status_of_second = report.value("status_of_second", -1);
+    result.answers = report["answers"];
+    result.applied = report["faults_applied"];
+    for (const auto& trouble : report["troubles"]) result.troubles.push_back(trouble);
+    const std::string errors = text_of(file("first.err"));
+    if (result.status != 0) result.error_line = error_line(errors);
+    const int last = result.status_of_second >= 0 ? result.status_of_second : result.status;
+    if (last != 0) {
+        result.troubles.push_back(
+            fmt::format("{} instead of a result: {}", last,
+                        result.status_of_second >= 0 ? text_of(file("second.err")) : errors));
+        return result;
+    }
+    try {
+        result.measurement = read_measurement(file("m.csv"));
+        result.journal = read_journal(file("m.journal"));
+        result.retries = result.journal.retries();
+        if (reference != nullptr) compare(*reference, &result);
+    } catch (const Error& error) {
+        result.troubles.push_back(error.message());
+    }
+    return result;
+}
+
+}  // namespace drude

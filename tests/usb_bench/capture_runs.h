@@ -1,0 +1,38 @@
+// `drude capture` on the virtual USB bench: one short sweep, with faults, and what came of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "device/sweep/journal.h"
+#include "materials/measurement.h"
+
+namespace drude {
+
+// Four steps of the polariser at one angle: as short as a sweep can be that one lost reading does
+// not spoil. Noise is off, so that a reading is the same whenever it is taken.
+extern const char* const short_recipe;
+
+struct CaptureCell {
+    std::string faults;  // "stall@12"; separated by spaces; empty: none
+    double wait_s = 1;   // for an unplugged instrument
+};
+
+struct CaptureResult {
+    int status = -1, status_of_second = -1;  // of capture, and of capture --resume; -1: not run
+    int answers = 0, applied = 0;
+    size_t retries = 0;
+    std::string error_line;             // of the first run, where it failed
+    std::vector<std::string> troubles;  // what the bench saw, or what is wrong with the result
+    std::string answer_list;            // of usb-bench --answers
+    Measurement measurement;
+    Journal journal;
+};
+
+// In a folder of its own below `folder`; `build` is where the programs are. With a reference, the
+// result is compared with it: raw frames bit for bit, Psi and Delta to 1e-9 degrees, except where a
+// saturated reading was left out (0.05 degrees).
+CaptureResult run_capture_cell(const std::string& build, const std::string& folder,
+                               const CaptureCell& cell, const CaptureResult* reference);
+
+}  // namespace drude
