@@ -19,7 +19,11 @@ struct FreshFrame {
 // have begun before `settled_s` of the bench's clock: arrival less integration time less readout.
 // At most 8 are; then throws DeviceError (bad frame). `between` runs before each frame and may
 // throw, e.g. where a signal arrived.
+//
+// `least` are discarded whatever the clock says. Two are needed where the host can be slow: a frame
+// that was under way when the bench came to rest, fetched late, looks as if it had begun later. The
+// third cannot have been: it began when the second ended, after the first was asked for.
 FreshFrame acquire_fresh(Spectrometer& spectrometer, double settled_s,
-                         const std::function<void()>& between = {});
+                         const std::function<void()>& between = {}, int least = 1);
 
 }  // namespace drude

@@ -14,6 +14,8 @@ class AptMount : public FtdiDevice {
     AptMount(const std::string& serial, Role role, double move_s, OpticalBench& bench,
              FaultPlan& faults);
 
+    void repair() override { jammed_ = false; }
+
   protected:
     void line_received(const Bytes& bytes) override;
     std::string describe_line(const Bytes& bytes) const override;

@@ -19,12 +19,14 @@ namespace drude {
 // 20 ms are long against what the host does between two frames, so that how many stale frames there
 // are does not depend on how busy the machine is.
 const char* const short_recipe = R"({"format": "drude-recipe/1", "sample": "Cu-McPeak",
- "angles_deg": [70], "steps": 4, "cycles": 1, "zones_deg": [45], "averages": 1, "dark_frames": 1,
+ "angles_deg": [70], "steps": 3, "cycles": 1, "zones_deg": [45], "averages": 1, "dark_frames": 1,
  "integration_s": 0.02, "harmonic_4": false, "drift": false, "shuffle": true, "seed": 1,
  "first_nm": 400, "last_nm": 780, "step_nm": 20}
 )";
 
 namespace {
+
+constexpr double bin_nm = 20;  // of the recipe
 
 // Full scale well above 20 ms of the sample's light; everything else a bench without faults.
 constexpr const char* settings = R"({"pixels": 3840, "first_nm": 340, "last_nm": 859.8006,
@@ -84,21 +86,37 @@ void compare(const CaptureResult& truth, CaptureResult* result) {
             }
         }
     }
-    // A reading less is another quantisation.
-    const double tolerance = saturated ? 0.05 : 1e-9;
     const auto& rows = result->measurement.rows;
     const auto& true_rows = truth.measurement.rows;
-    if (rows.size() != true_rows.size()) {
+    // Three azimuths are needed: wavelengths of a saturated part of a frame are left out.
+    if (rows.size() != true_rows.size() && !(saturated && rows.size() < true_rows.size())) {
         trouble(fmt::format("{} rows instead of {}", rows.size(), true_rows.size()));
         return;
     }
-    double worst = 0;
-    for (size_t i = 0; i < rows.size(); ++i) {
-        worst = std::max({worst, std::abs(rows[i].psi_deg - true_rows[i].psi_deg),
-                          std::abs(rows[i].delta_deg - true_rows[i].delta_deg)});
-    }
-    if (!(worst <= tolerance)) {
-        trouble(fmt::format("Psi or Delta is {} degrees from the uninterrupted run", worst));
+    const auto has = [](const std::vector<MeasurementRow>& all, double nm) {
+        return std::any_of(all.begin(), all.end(),
+                           [&](const MeasurementRow& row) { return row.wavelength_nm == nm; });
+    };
+    for (const MeasurementRow& row : rows) {
+        const auto same =
+            std::find_if(true_rows.begin(), true_rows.end(), [&](const MeasurementRow& true_row) {
+                return true_row.wavelength_nm == row.wavelength_nm;
+            });
+        if (same == true_rows.end()) {
+            trouble(fmt::format("a row at {} nm", row.wavelength_nm));
+            return;
+        }
+        // A bin beside missing ones lost a part of its pixels, too.
+        bool at_the_edge = false;
+        for (const double nm : {row.wavelength_nm - bin_nm, row.wavelength_nm + bin_nm}) {
+            at_the_edge = at_the_edge || (has(true_rows, nm) && !has(rows, nm));
+        }
+        const double off = std::max(std::abs(row.psi_deg - same->psi_deg),
+                                    std::abs(row.delta_deg - same->delta_deg));
+        if (!(off <= (at_the_edge ? 0.5 : 1e-9))) {
+            trouble(fmt::format("Psi or Delta at {} nm is {} degrees from the uninterrupted run",
+                                row.wavelength_nm, off));
+        }
     }
 }
 

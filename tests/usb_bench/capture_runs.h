@@ -9,8 +9,8 @@
 
 namespace drude {
 
-// Four steps of the polariser at one angle: as short as a sweep can be that one lost reading does
-// not spoil. Noise is off, so that a reading is the same whenever it is taken.
+// Three steps of the polariser at one angle: the shortest sweep that there is. Noise is off, so
+// that a reading is the same whenever it is taken.
 extern const char* const short_recipe;
 
 struct CaptureCell {
@@ -30,8 +30,8 @@ struct CaptureResult {
 };
 
 // In a folder of its own below `folder`; `build` is where the programs are. With a reference, the
-// result is compared with it: raw frames bit for bit, Psi and Delta to 1e-9 degrees, except where a
-// saturated reading was left out (0.05 degrees).
+// result is compared with it: raw frames bit for bit, Psi and Delta to 1e-9 degrees. Where a part
+// of a frame was saturated, its wavelengths may be missing, and the others be off by 0.05 degrees.
 CaptureResult run_capture_cell(const std::string& build, const std::string& folder,
                                const CaptureCell& cell, const CaptureResult* reference);
 

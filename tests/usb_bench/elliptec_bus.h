@@ -18,6 +18,10 @@ class ElliptecBus : public FtdiDevice {
     ElliptecBus(const std::string& serial, const std::vector<Role>& roles, double move_s,
                 OpticalBench& bench, FaultPlan& faults);
 
+    void repair() override {
+        for (auto& mount : mounts_) mount.second.jammed = false;
+    }
+
     static constexpr int pulses_per_turn = 143360;
 
   protected:

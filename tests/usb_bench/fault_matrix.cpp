@@ -75,7 +75,9 @@ void run_cell(const MatrixOptions& options, const CaptureResult& reference, Cell
     if (result.status != 0 && result.status != 3 && !(killed && cell->kind == "kill")) {
         result.troubles.push_back(fmt::format("status {}", result.status));
     }
-    if (result.status == 3 && result.error_line.find(cell->device) == std::string::npos) {
+    // By its URI or its serial number.
+    const std::string serial = cell->device.substr(cell->device.find(':') + 1);
+    if (result.status == 3 && result.error_line.find(serial) == std::string::npos) {
         result.troubles.push_back(
             fmt::format("the error does not name {}: '{}'", cell->device, result.error_line));
     }

@@ -110,10 +110,14 @@ void UsbfsNode::clean_up() {
     }
 }
 
-void UsbfsNode::disconnect() {
+void UsbfsNode::take_complete() {
     while (std::optional<Transfer> transfer = device_.reap()) {
         complete_.push_back(std::move(*transfer));
     }
+}
+
+void UsbfsNode::disconnect() {
+    take_complete();
     disconnected_ = true;
     holder_ = nullptr;
 }
@@ -223,6 +227,8 @@ void UsbfsNode::submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument)
     if (!transfer.incoming() && bytes != nullptr) transfer.data.assign(bytes, transfer.length);
     blocks_[transfer.cookie] = {block, client};
     device_.submit(std::move(transfer));
+    // It may have left the bus because of this very transfer.
+    if (disconnected_) take_complete();
     complete(client, 0, 0);
     if (buffer != nullptr) g_object_unref(buffer);
 }

@@ -57,6 +57,7 @@ class UsbfsNode {
     int claim(UMockdevIoctlClient* client, bool detach);
     int driver_ioctl(UMockdevIoctlData* argument);
     std::optional<Transfer> next_complete();
+    void take_complete();
 
     VirtualDevice& device_;
     std::mutex& lock_;

@@ -94,6 +94,8 @@ class VirtualDevice {
     void unplug();
     // Back on the bus: what USB powers begins anew.
     void plug_in();
+    // Somebody saw to what a fault broke for good.
+    virtual void repair() {}
     // Called by unplug(), with the time after which it is plugged in again where there is one.
     std::function<void(std::optional<int> milliseconds)> on_unplug;
 

@@ -1,0 +1,135 @@
+// `drude devices` and `drude capture`, the programs themselves, on the virtual USB bench.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "device/virtual/ellipsometer_simulation.h"
+#include "materials/measurement.h"
+#include "usb_bench/bench_runs.h"
+#include "usb_bench/capture_runs.h"
+
+namespace drude {
+namespace {
+
+const std::string mounts =
+    "--device ell:DK0AELL1 --device apt-sample:55000001 --device apt-arm:55000002 ";
+const std::string capture = "{drude} capture recipe.json --instrument bench.json --wait 0.3 -o ";
+
+// With recipe and bench file, written by a bench that has everything.
+void prepare(const TemporaryFolder& folder, const std::string& recipe = short_recipe) {
+    write_text(folder.file("recipe.json"), recipe);
+    const BenchRun run =
+        run_on_bench(folder, mounts + "--device ooi:USB4C00001 --bench-out bench.json", "true");
+    ASSERT_EQ(run.status, 0) << run.err;
+}
+
+void expect_words(const std::string& text, const std::vector<std::string>& words) {
+    for (const std::string& word : words) {
+        EXPECT_NE(text.find(word), std::string::npos) << "'" << word << "' is missing in: " << text;
+    }
+}
+
+TEST(UsbBench, DevicesAreListedWithTheirSerials) {
+    const TemporaryFolder folder;
+    const BenchRun run = run_on_bench(folder, "", "{drude} devices");
+    EXPECT_EQ(run.status, 0) << run.err;
+    expect_words(run.out, {"USB4C00001", "USB4000", "DK0AELL1", "55000001", "55000002", "TMC0001"});
+}
+
+TEST(UsbBench, AShortSweepGivesTheTruth) {
+    const TemporaryFolder folder;
+    // Two cycles: Delta with its sign, by way of the retarder's calibration.
+    std::string recipe = short_recipe;
+    recipe.replace(recipe.find("\"steps\": 3, \"cycles\": 1"), 23, "\"steps\": 5, \"cycles\": 2");
+    prepare(folder, recipe);
+    const BenchRun run =
+        run_on_bench(folder, mounts + "--device ooi:USB4C00001", capture + "m.csv --integration 4");
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.report["troubles"].size(), 0U) << run.err;
+    // The chips of all three lines had the kernel's driver.
+    EXPECT_GE(run.report["drivers_detached"].get<int>(), 3);
+    const Measurement measured = read_measurement(folder.file("m.csv"));
+    const Measurement truth =
+        simulate_ellipsometer(find_material("Cu-McPeak"), {{70}, measured.wavelengths(), 0, 0, 1});
+    ASSERT_EQ(measured.rows.size(), 20U);
+    for (size_t i = 0; i < truth.rows.size(); ++i) {
+        // Bins of 20 nm and counts that are whole numbers.
+        EXPECT_NEAR(measured.rows[i].psi_deg, truth.rows[i].psi_deg, 0.05);
+        EXPECT_NEAR(measured.rows[i].delta_deg, truth.rows[i].delta_deg, 0.15);
+    }
+}
+
+TEST(UsbBench, NoSpectrometerSaysWhatIsThere) {
+    const TemporaryFolder folder;
+    prepare(folder);
+    const BenchRun run = run_on_bench(folder, mounts, capture + "m.csv");
+    EXPECT_EQ(run.status, 3);
+    expect_words(run.err, {"USB4C00001", "plugged in", "drude devices"});
+    EXPECT_EQ(run.report["troubles"].size(), 0U) << run.err;
+}
+
+TEST(UsbBench, TwoSpectrometersWithoutANameAreAmbiguous) {
+    const TemporaryFolder folder;
+    prepare(folder);
+    std::string bench = read_text(folder.file("bench.json"));
+    bench.replace(bench.find("ooi:USB4C00001"), 14, "ooi:");
+    write_text(folder.file("bench.json"), bench);
+    BenchRun run =
+        run_on_bench(folder, mounts + "--device ooi:SN1 --device ooi:SN2", capture + "m.csv");
+    EXPECT_EQ(run.status, 2);
+    expect_words(run.err, {"say which one", "ooi:SN1", "ooi:SN2"});
+    EXPECT_EQ(run.report["troubles"].size(), 0U) << run.err;
+    // Identical ones that have no serial number at all cannot be told apart either.
+    run = run_on_bench(folder, mounts + "--device ooi: --device ooi:", capture + "m.csv");
+    EXPECT_EQ(run.status, 2);
+    expect_words(run.err, {"2 devices fit"});
+    // Named, it is opened though another one like it is there: never by its place in a list.
+    prepare(folder);
+    run = run_on_bench(folder, mounts + "--device ooi:SN2 --device ooi:USB4C00001",
+                       capture + "m.csv");
+    EXPECT_EQ(run.status, 0) << run.err;
+}
+
+TEST(UsbBench, WrongPermissionGetsTheUdevRule) {
+    const TemporaryFolder folder;
+    prepare(folder);
+    const BenchRun run =
+        run_on_bench(folder, mounts + "--device ooi:USB4C00001,refused", capture + "m.csv");
+    EXPECT_EQ(run.report["status"], 3);
+    expect_words(run.err, {"may not open it", "/etc/udev/rules.d/",
+                           "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"2457\""});
+}
+
+TEST(UsbBench, ABusyDeviceIsNotTakenAway) {
+    const TemporaryFolder folder;
+    prepare(folder);
+    const BenchRun run =
+        run_on_bench(folder, mounts + "--device ooi:USB4C00001,busy", capture + "m.csv");
+    EXPECT_EQ(run.status, 3);
+    expect_words(run.err, {"ooi:USB4C00001", "another program has it open"});
+    EXPECT_EQ(run.report["troubles"].size(), 0U) << run.err;
+}
+
+TEST(UsbBench, UnpluggedBetweenSweepsIsSaid) {
+    const TemporaryFolder folder;
+    prepare(folder);
+    const std::string devices = mounts + "--device ooi:USB4C00001 --answers answers.txt ";
+    const BenchRun first = run_on_bench(folder, devices, capture + "m.csv");
+    ASSERT_EQ(first.status, 0) << first.err;
+    // The first question of the second sweep.
+    const std::string fault =
+        "--fault unplug@" + std::to_string(first.report["answers"].get<int>());
+    const std::string one = capture + "a.csv", other = capture + "b.csv";
+    const BenchRun second =
+        run_on_bench(folder, devices + fault, "sh -c '" + one + " && " + other + "'");
+    EXPECT_EQ(second.report["faults_applied"], 1);
+    EXPECT_EQ(second.status, 3) << second.err;
+    expect_words(second.err, {"plugged in"});
+    EXPECT_TRUE(std::filesystem::exists(folder.file("a.csv")));
+    EXPECT_FALSE(std::filesystem::exists(folder.file("b.csv")));
+}
+
+}  // namespace
+}  // namespace drude
