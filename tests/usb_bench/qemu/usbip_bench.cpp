@@ -31,8 +31,8 @@ int work(const BenchOptions& options) {
                        device.scheme, device.serial);
         }
     }
-    if (!options.on_failure.empty()) {
-        user_error("usbip-bench: there is no second program here");
+    if (!options.on_failure.empty() || !options.bench_file.empty()) {
+        user_error("usbip-bench: --on-failure and --bench-out are usb-bench's only");
     }
     FaultPlan faults;
     OpticalBench optics(find_material(options.material), options.settings, options.frozen_noise);
