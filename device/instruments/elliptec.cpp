@@ -54,13 +54,24 @@ void ElliptecBus::send(char address, std::string_view command) {
     // What is there before it is asked for belongs to an earlier question. The chip hands over
     // within its latency time of 2 ms what it holds.
     if (line_.drain(0.004, deadline_in(0.1)) > 0) ++dropped_;
-    line_.write(address + std::string(command), deadline_in(1));
+    asked_ = address + std::string(command);
+    line_.write(asked_, deadline_in(1));
+}
+
+std::string ElliptecBus::next_line(Deadline deadline) {
+    try {
+        return line_.read_line(deadline);
+    } catch (const DeviceError& error) {
+        if (error.fault() != Fault::timeout) throw;
+        device_error(Fault::timeout,
+                     "{}: no answer to '{}' in time; check the mount's supply and the bus cable",
+                     line_.name(), asked_);
+    }
 }
 
 ElliptecAnswer ElliptecBus::receive(char address, std::string_view codes, Deadline deadline) {
     for (;;) {
-        const std::string text = line_.read_line(deadline);
-        const std::optional<ElliptecAnswer> answer = parse_elliptec_answer(text);
+        const std::optional<ElliptecAnswer> answer = parse_elliptec_answer(next_line(deadline));
         if (answer && answer->address == address &&
             codes.find(answer->code) != std::string_view::npos) {
             return *answer;

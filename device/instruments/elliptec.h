@@ -43,8 +43,11 @@ class ElliptecBus {
     int dropped() const { return dropped_; }
 
   private:
+    std::string next_line(Deadline deadline);
+
     std::shared_ptr<UsbPort> port_;
     FtdiSerial line_;
+    std::string asked_;  // last, for messages
     int dropped_ = 0;
 };
 

@@ -103,6 +103,9 @@ FtdiSerial::FtdiSerial(std::shared_ptr<UsbPort> port, const SerialSettings& sett
     in_ = find_endpoint(*port_, true);
     out_ = find_endpoint(*port_, false);
     packet_size_ = port_->packet_size(in_);
+    // A program that stopped before may have left a halt, which outlives it.
+    port_->clear_halt(in_);
+    port_->clear_halt(out_);
     configure();
 }
 

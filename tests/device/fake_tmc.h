@@ -18,6 +18,9 @@ class FakeTmc {
   public:
     class Port : public FakeUsbPort {
       public:
+        uint8_t interface_ = 0;
+
+        uint8_t interface_number() const override { return interface_; }
         std::vector<std::pair<uint8_t, uint8_t>> endpoints() const override {
             std::vector<std::pair<uint8_t, uint8_t>> result;
             for (const auto& [endpoint, size] : packet_sizes_) {

@@ -123,6 +123,28 @@ TEST(Usbtmc, AnswersOfEveryLength) {
     }
 }
 
+// An empty packet that was left behind by the transfer before.
+TEST(Usbtmc, AnEmptyPacketBeforeAnAnswerIsSkipped) {
+    FakeTmc head;
+    Usbtmc tmc(head.port);
+    head.answers["A?"] = "1";
+    head.port->answer(0x81, {});
+    EXPECT_EQ(tmc.ask("A?", 1), "1");
+    EXPECT_TRUE(head.port->holds_nothing());
+}
+
+TEST(Usbtmc, RequestsNameTheInterfaceAndTheEndpoint) {
+    FakeTmc head;
+    head.port->interface_ = 3;
+    Usbtmc tmc(head.port);
+    tmc.status_byte();
+    ASSERT_EQ(head.port->controls.size(), 4u);  // capabilities, clear, its check, status byte
+    for (const auto& control : head.port->controls) {
+        EXPECT_EQ(control.request.request_type, 0xA1);
+        EXPECT_EQ(control.request.index, 3);
+    }
+}
+
 TEST(Usbtmc, LongMessagesGoInSeveralTransfers) {
     FakeTmc head;
     UsbtmcOptions options;

@@ -53,8 +53,8 @@ const JournalPoint* point_of(const Journal& journal, uint32_t index) {
     return nullptr;
 }
 
-bool is_saturated(const JournalPoint& point, uint32_t max_counts) {
-    return std::any_of(point.frames.begin(), point.frames.end(), [&](const Frame& frame) {
+bool is_saturated(const std::vector<Frame>& frames, uint32_t max_counts) {
+    return std::any_of(frames.begin(), frames.end(), [&](const Frame& frame) {
         return std::find(frame.counts.begin(), frame.counts.end(), max_counts) !=
                frame.counts.end();
     });
@@ -65,6 +65,9 @@ void compare(const CaptureResult& truth, CaptureResult* result) {
     if (!result->journal.complete) trouble("the journal is not complete");
     const uint32_t max_counts = truth.journal.header->spectrometer.max_counts;
     bool saturated = false;
+    for (const JournalDark& dark : result->journal.darks) {
+        saturated = saturated || is_saturated(dark.frames, max_counts);
+    }
     for (uint32_t i = 0; i < truth.journal.plan.size(); ++i) {
         const JournalPoint *ours = point_of(result->journal, i),
                            *theirs = point_of(truth.journal, i);
@@ -72,7 +75,7 @@ void compare(const CaptureResult& truth, CaptureResult* result) {
             trouble(fmt::format("point {} is missing", i));
             continue;
         }
-        if (is_saturated(*ours, max_counts)) {
+        if (is_saturated(ours->frames, max_counts)) {
             saturated = true;
             continue;
         }

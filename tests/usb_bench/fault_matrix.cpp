@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -104,6 +105,7 @@ void run_all(const MatrixOptions& options, const CaptureResult& reference,
             for (const std::string& trouble : cell.result.troubles) {
                 fmt::print("{}: {}\n", cell.fault, trouble);
             }
+            std::fflush(stdout);
         }
     };
     std::vector<std::jthread> workers;

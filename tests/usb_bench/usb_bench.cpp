@@ -115,11 +115,7 @@ ClientRun run(const std::vector<std::string>& command, const BenchOptions& optio
     if (result.exited) {
         result.left_over.insert(result.left_over.end(), held.begin(), held.end());
     } else {
-        // Killed: the system closes what it had.
-        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(2);
-        while (bed.open_count() > 0 && std::chrono::steady_clock::now() < deadline) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
+        bed.client_died();
     }
     return result;
 }

@@ -168,11 +168,9 @@ std::vector<std::string> UsbTestbed::held() {
     return all;
 }
 
-int UsbTestbed::open_count() {
+void UsbTestbed::client_died() {
     const std::lock_guard guard(lock_);
-    int count = 0;
-    for (const auto& node : nodes_) count += node->open_count();
-    return count;
+    for (const auto& node : nodes_) node->client_died();
 }
 
 int UsbTestbed::detached_count() {

@@ -33,7 +33,7 @@ class UsbTestbed {
     std::string root() const;  // the folder that holds the mocked /dev
     // What clients hold at the moment (UsbfsNode::held()).
     std::vector<std::string> held();
-    int open_count();
+    void client_died();
     int detached_count();
     std::vector<std::string> complaints();
 

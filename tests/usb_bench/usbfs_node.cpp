@@ -86,10 +86,15 @@ void UsbfsNode::on_closed(UMockdevIoctlClient*, GParamSpec*, gpointer self) {
     node->clean_up();
 }
 
-void UsbfsNode::clean_up() {
+void UsbfsNode::client_died() {
+    clean_up(true);
+}
+
+void UsbfsNode::clean_up(bool all) {
     for (auto it = clients_.begin(); it != clients_.end();) {
         UMockdevIoctlClient* client = *it;
-        if (umockdev_ioctl_client_get_connected(client)) {
+        const bool connected = umockdev_ioctl_client_get_connected(client);
+        if (connected && !all) {
             ++it;
             continue;
         }
@@ -120,11 +125,6 @@ void UsbfsNode::disconnect() {
     take_complete();
     disconnected_ = true;
     holder_ = nullptr;
-}
-
-int UsbfsNode::open_count() {
-    clean_up();
-    return static_cast<int>(clients_.size());
 }
 
 std::vector<std::string> UsbfsNode::held() {
@@ -185,7 +185,8 @@ gboolean UsbfsNode::on_wait(gpointer data) {
     bool over = false;
     {
         const std::lock_guard guard(waiting->node->lock_);
-        over = !umockdev_ioctl_client_get_connected(waiting->client) ||
+        over = waiting->node->clients_.count(waiting->client) == 0 ||
+               !umockdev_ioctl_client_get_connected(waiting->client) ||
                waiting->node->reap(waiting->client);
         if (!over && --waiting->ticks_left <= 0) {
             complete(waiting->client, -1, waiting->node->disconnected_ ? ENODEV : EAGAIN);

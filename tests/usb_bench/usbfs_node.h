@@ -34,10 +34,12 @@ class UsbfsNode {
     // answered by ENODEV from now on.
     void disconnect();
 
+    // The client was killed. umockdev does not notice where an ioctl of its had no answer yet.
+    void client_died();
+
     // What the client still holds: descriptors, interfaces, transfers, and a kernel driver that it
     // took off and did not put back. Empty: nothing. The caller holds the lock.
     std::vector<std::string> held();
-    int open_count();
     int detached_count() const { return detached_count_; }  // ever
     // What the client did that the kernel complains of.
     const std::vector<std::string>& complaints() const { return complaints_; }
@@ -49,8 +51,8 @@ class UsbfsNode {
     static gboolean on_wait(gpointer waiting);
     struct Waiting;
 
-    // Sees to what clients left that closed their descriptor.
-    void clean_up();
+    // Sees to what clients left that closed their descriptor, or to what all left.
+    void clean_up(bool all = false);
     void handle(UMockdevIoctlClient* client);
     void submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
     bool reap(UMockdevIoctlClient* client);
