@@ -1,7 +1,6 @@
 #include "device/usb/usb_device.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "base/interrupt.h"
@@ -17,49 +16,6 @@ namespace drude {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-struct Endpoint {
-    size_t packet_size = 0;
-    uint8_t type = 0;  // 2 bulk, 3 interrupt
-};
-
-// The interface that a protocol talks to, with its endpoints.
-struct ChosenInterface {
-    int number = 0;
-    std::map<uint8_t, Endpoint> endpoints;
-};
-
-ChosenInterface choose_interface(libusb_device* device, const std::string& scheme) {
-    const ConfigurationPointer config = read_configuration(device);
-    ChosenInterface first;
-    bool found = false;
-    for (int i = 0; config && i < config->bNumInterfaces; ++i) {
-        if (config->interface[i].num_altsetting < 1) continue;
-        // What is active after plugging in; none of the protocols here changes it.
-        const libusb_interface_descriptor& setting = config->interface[i].altsetting[0];
-        ChosenInterface chosen;
-        chosen.number = setting.bInterfaceNumber;
-        bool bulk = false;
-        for (int j = 0; j < setting.bNumEndpoints; ++j) {
-            const libusb_endpoint_descriptor& end = setting.endpoint[j];
-            // Bits 11 and 12 say how often an isochronous endpoint repeats.
-            const size_t size = end.wMaxPacketSize & 0x7FF;
-            const uint8_t type = end.bmAttributes & 3;
-            if (size == 0) continue;
-            chosen.endpoints[end.bEndpointAddress] = {size, type};
-            bulk = bulk || type == LIBUSB_TRANSFER_TYPE_BULK;
-        }
-        if (scheme == "usbtmc" && setting.bInterfaceClass == 0xFE &&
-            setting.bInterfaceSubClass == 3) {
-            return chosen;
-        }
-        if (bulk && !found) {
-            first = std::move(chosen);
-            found = true;
-        }
-    }
-    return first;
-}
 
 class LibusbPort : public UsbPort {
   public:
@@ -226,9 +182,7 @@ class LibusbPort : public UsbPort {
         name_ = shown_device(target_.scheme, candidate);
         high_speed_ = libusb_get_device_speed(candidate.device.get()) >= LIBUSB_SPEED_HIGH;
         interface_ = choose_interface(candidate.device.get(), target_.scheme);
-        // Not supported outside Linux, where no kernel driver is in the way either.
-        libusb_set_auto_detach_kernel_driver(candidate.handle.get(), 1);
-        const int status = libusb_claim_interface(candidate.handle.get(), interface_.number);
+        const int status = claim(candidate.handle.get());
         if (status == LIBUSB_ERROR_NO_DEVICE) {
             throw NoSuchDevice(Cause::outside, name_ + ": it was unplugged while it was opened");
         }
@@ -241,6 +195,15 @@ class LibusbPort : public UsbPort {
         }
         device_ = std::move(candidate.device);
         handle_ = std::move(candidate.handle);
+    }
+
+    int claim(libusb_device_handle* handle) const {
+        libusb_set_auto_detach_kernel_driver(handle, 1);
+        const int status = libusb_claim_interface(handle, interface_.number);
+        if (status != LIBUSB_ERROR_OTHER && status != LIBUSB_ERROR_NOT_SUPPORTED) return status;
+        // A system that lets nobody detach drivers; there may be none to detach.
+        libusb_set_auto_detach_kernel_driver(handle, 0);
+        return libusb_claim_interface(handle, interface_.number);
     }
 
     void close() {

@@ -63,6 +63,38 @@ std::vector<UsbInterface> read_interfaces(libusb_device* device) {
     return interfaces;
 }
 
+ChosenInterface choose_interface(libusb_device* device, const std::string& scheme) {
+    const ConfigurationPointer config = read_configuration(device);
+    ChosenInterface first;
+    bool found = false;
+    for (int i = 0; config && i < config->bNumInterfaces; ++i) {
+        if (config->interface[i].num_altsetting < 1) continue;
+        // What is active after plugging in; none of the protocols here changes it.
+        const libusb_interface_descriptor& setting = config->interface[i].altsetting[0];
+        ChosenInterface chosen;
+        chosen.number = setting.bInterfaceNumber;
+        bool bulk = false;
+        for (int j = 0; j < setting.bNumEndpoints; ++j) {
+            const libusb_endpoint_descriptor& end = setting.endpoint[j];
+            // Bits 11 and 12 say how often an isochronous endpoint repeats.
+            const size_t size = end.wMaxPacketSize & 0x7FF;
+            const uint8_t type = end.bmAttributes & 3;
+            if (size == 0) continue;
+            chosen.endpoints[end.bEndpointAddress] = {size, type};
+            bulk = bulk || type == LIBUSB_TRANSFER_TYPE_BULK;
+        }
+        if (scheme == "usbtmc" && setting.bInterfaceClass == 0xFE &&
+            setting.bInterfaceSubClass == 3) {
+            return chosen;
+        }
+        if (bulk && !found) {
+            first = std::move(chosen);
+            found = true;
+        }
+    }
+    return first;
+}
+
 std::string read_string(libusb_device_handle* handle, uint8_t index) {
     if (index == 0) return {};
     unsigned char buffer[256];

@@ -3,6 +3,8 @@
 
 #include <libusb.h>
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,6 +44,21 @@ std::vector<DevicePointer> list_devices(libusb_context* context, std::string* pr
 // The active configuration, or the first one; empty where neither can be read.
 ConfigurationPointer read_configuration(libusb_device* device);
 std::vector<UsbInterface> read_interfaces(libusb_device* device);
+
+struct UsbEndpoint {
+    size_t packet_size = 0;
+    uint8_t type = 0;  // 2 bulk, 3 interrupt
+};
+
+// The interface that a protocol talks to, with its endpoints.
+struct ChosenInterface {
+    int number = 0;
+    std::map<uint8_t, UsbEndpoint> endpoints;
+};
+
+// The USBTMC interface for scheme "usbtmc", else the first with bulk endpoints; interface 0 without
+// endpoints where there is neither.
+ChosenInterface choose_interface(libusb_device* device, const std::string& scheme);
 
 // A string descriptor as printable ASCII, '?' for everything else; empty for index 0.
 std::string read_string(libusb_device_handle* handle, uint8_t index);

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "cli/command_list.h"
 #include "cli/json_output.h"
+#include "device/instruments/registry.h"
 #include "device/usb/usb_listing.h"
 
 namespace drude {
@@ -15,7 +16,20 @@ using nlohmann::ordered_json;
 
 struct DevicesOptions {
     bool all = false;
+    bool udev_rules = false;
 };
+
+// What the driver of a scheme plays in a bench, or an empty string.
+std::string role_of(const std::string& scheme) {
+    for (const InstrumentDriver& driver : instrument_drivers()) {
+        if (driver.scheme == scheme) return driver.plays;
+    }
+    return {};
+}
+
+std::string capabilities_of(const UsbDevice& device) {
+    return instrument_capabilities(device.family.scheme, device.vendor, device.product);
+}
 
 void print_json(const UsbListing& listing) {
     ordered_json devices = ordered_json::array();
@@ -30,6 +44,10 @@ void print_json(const UsbListing& listing) {
                               {"family", device.family.name},
                               {"kind", device.family.kind},
                               {"family_certain", device.family.certain},
+                              {"uri", device.uri},
+                              {"plays", role_of(device.family.scheme)},
+                              {"capabilities", capabilities_of(device)},
+                              {"speed", device.high_speed ? "high" : "full"},
                               {"permitted", device.permitted},
                               {"problem", device.problem}};
         if (!device.permitted) entry["udev_rule"] = udev_rule(device.vendor, device.product);
@@ -49,6 +67,7 @@ void print_device(const UsbDevice& device) {
                known ? fmt::format(" ({}{})", device.family.certain ? "" : "perhaps a ",
                                    device.family.kind)
                      : "");
+    if (!device.uri.empty()) fmt::print("  {:<28}{}\n", device.uri, capabilities_of(device));
 }
 
 void print_text(const UsbListing& listing, bool all) {
@@ -76,9 +95,10 @@ void print_text(const UsbListing& listing, bool all) {
         if (device.permitted) continue;
         fmt::print(stderr,
                    "  To let the user at this machine open it, put this line into\n"
-                   "  /etc/udev/rules.d/70-drude.rules, then plug the device in again:\n"
+                   "  /etc/udev/rules.d/{}, then plug the device in again (drude devices\n"
+                   "  --udev-rules prints a file for all instruments that are known here):\n"
                    "    {}\n",
-                   udev_rule(device.vendor, device.product));
+                   udev_rules_name, udev_rule(device.vendor, device.product));
     }
 }
 
@@ -92,18 +112,30 @@ Command devices_command() {
         "Lists USB devices that belong to an instrument family known here: Ocean Optics "
         "spectrometers, Thorlabs rotation mounts (behind FTDI serial-port chips), and USBTMC "
         "instruments. A device that this user may not open is named with the udev rule that "
-        "changes it. Devices are only asked for their names. The simulated ellipsometer "
-        "virtual:MATERIAL is always there.\n\n"
+        "changes it. Devices are only asked for their names. Below each stands the URI by which a "
+        "bench file names it, and what it can do; an Elliptec URI ends with the mount's address on "
+        "its bus, 0 where nobody changed it. The simulated ellipsometer virtual:MATERIAL is always "
+        "there.\n\n"
+        "--udev-rules prints the rules file that 'cmake --install' puts into lib/udev/rules.d; it "
+        "belongs into /etc/udev/rules.d where the program was installed elsewhere than /usr.\n\n"
         "A machine without USB is no error: the list is then empty.";
     command.example =
         "$ drude devices\n"
         "usb 001:004  2457:1022  serial FLMT01234         Ocean Optics USB4000 / Flame-T "
         "(spectrometer)\n"
+        "  ooi:FLMT01234               intensities of 3840 pixels, integration 10 us to 65.53 s, "
+        "lamp line\n"
         "virtual:MATERIAL  always there: a simulated ellipsometer, ...\n";
     command.declare = [](OptionSet& options, const CommonOptions& common) {
         const auto values = std::make_shared<DevicesOptions>();
         options.flag("--all", values->all, "list every USB device, hubs excepted");
+        options.flag("--udev-rules", values->udev_rules,
+                     "print the udev rules of all instruments known here, and list nothing");
         return [values, &common] {
+            if (values->udev_rules) {
+                fmt::print("{}", udev_rules_file());
+                return 0;
+            }
             const UsbListing listing = list_usb_devices();
             if (common.json) {
                 print_json(listing);

@@ -16,9 +16,11 @@ run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/copper)
 
-# The program is installed whole: it answers, and its manual page and completion are in place.
+# The program is installed whole: it answers, and its manual page, completion and udev rules are in
+# place.
 run(${prefix}/bin/drude --version)
-foreach(file share/man/man1/drude.1 share/bash-completion/completions/drude)
+foreach(file share/man/man1/drude.1 share/bash-completion/completions/drude
+        lib/udev/rules.d/70-drude.rules)
   file(SIZE ${prefix}/${file} size)
   if(size LESS 500)
     message(FATAL_ERROR "${prefix}/${file}: found ${size} bytes, expected a whole page")
