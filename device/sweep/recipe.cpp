@@ -141,6 +141,14 @@ void Recipe::check(const std::string& where) const {
             where, zones_deg.size());
     }
     check_range(where, "steps", steps, harmonic_4 ? 5 : 3, 360);
+    // P and P + 180 degrees are the same polariser.
+    const int distinct = steps % 2 == 0 ? steps / 2 : steps;
+    if (kind != RecipeKind::lobe && distinct < (harmonic_4 ? 5 : 3)) {
+        user_error(
+            "{}: {} steps over a turn are {} azimuths modulo 180 degrees, expected {} or more: an "
+            "odd number of steps, or twice as many",
+            where, steps, distinct, harmonic_4 ? 5 : 3);
+    }
     check_range(where, "cycles", cycles, 1, 2);
     check_range(where, "averages", averages, 1, 1000);
     check_range(where, "dark_frames", dark_frames, 1, 1000);

@@ -36,6 +36,7 @@ TEST(Recipe, WrongOnesAreRefusedWithTheirPlace) {
     expect_error(Cause::user, {"r.json:1:", "psi-delta", "did you mean"},
                  [] { recipe_of(", \"kind\": \"psi-dleta\""); });
     expect_error(Cause::user, {"steps", "4", "5 to 360"}, [] { recipe_of(", \"steps\": 4"); });
+    expect_error(Cause::user, {"8 steps", "4 azimuths"}, [] { recipe_of(", \"steps\": 8"); });
     expect_error(Cause::user, {"whole number"}, [] { recipe_of(", \"steps\": 24.5"); });
     expect_error(Cause::user, {"90", "angles_deg"}, [] { recipe_of(", \"angles_deg\": [90]"); });
     expect_error(Cause::user, {"45 twice"}, [] { recipe_of(", \"angles_deg\": [45, 45]"); });
