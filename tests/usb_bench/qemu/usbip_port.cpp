@@ -18,6 +18,10 @@ namespace fs = std::filesystem;
 
 const char* const controller = "/sys/devices/platform/vhci_hcd.0";
 
+// From the moment at which a model leaves the bus until the kernel sees it: long enough that the
+// host waits for an answer by then.
+constexpr auto wait_for_pull = std::chrono::milliseconds(50);
+
 // The folder of the controller's high-speed bus, "usb1": the one whose root hub is no SuperSpeed
 // one.
 fs::path high_speed_bus() {
@@ -64,6 +68,7 @@ bool UsbipPort::attach() {
     }
     socket_ = pair[0];
     reader_ = {};
+    pulled_.reset();
     return true;
 }
 
@@ -97,9 +102,10 @@ void UsbipPort::serve() {
         ++commands_;
         obey(*command);
     }
-    // What was under way when the cable was pulled gets no answer.
-    if (device_.gone()) detach();
     answer();
+    if (!device_.gone()) return;
+    if (!pulled_) pulled_ = Clock::now() + wait_for_pull;
+    if (Clock::now() >= *pulled_) detach();
 }
 
 void UsbipPort::obey(const UsbipCommand& command) {
@@ -133,6 +139,10 @@ void UsbipPort::answer() {
         under_way_.erase(transfer->cookie);
         if (taken_back_.erase(transfer->cookie) != 0) continue;
         const auto sequence = static_cast<uint32_t>(transfer->cookie);
+        if (device_.gone()) {
+            if (!transfer->incoming()) send(format_usbip_answer(sequence, 0, transfer->length, ""));
+            continue;
+        }
         if (transfer->incoming()) {
             send(format_usbip_answer(sequence, transfer->status, transfer->data.size(),
                                      transfer->data));

@@ -32,8 +32,9 @@ class UsbipPort {
     bool attached() const { return socket_ >= 0; }
     // To poll for input; -1 while detached.
     int descriptor() const { return socket_; }
-    // Takes the commands that are here to the model and brings the answers that it has. Throws
-    // Error (outside) for what is no USB/IP.
+    // Takes the commands that are here to the model and brings the answers that it has. A device
+    // that has left the bus is detached a moment later: what was sent to it arrived, what it was
+    // asked for never comes. Throws Error (outside) for what is no USB/IP.
     void serve();
     // How many commands there were so far: while it grows, somebody talks to the device.
     uint64_t commands() const { return commands_; }
@@ -54,6 +55,7 @@ class UsbipPort {
     int socket_ = -1;
     uint64_t commands_ = 0;
     UsbipReader reader_;
+    std::optional<Instant> pulled_;  // when the kernel is to see that the device has left
     std::set<uint64_t> under_way_;   // transfers that the device has and that were not answered
     std::set<uint64_t> taken_back_;  // those of them that the kernel wants to hear no more of
 };
