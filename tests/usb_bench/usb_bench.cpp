@@ -19,13 +19,9 @@
 #include "base/files.h"
 #include "device/virtual/virtual_bench.h"
 #include "materials/material.h"
-#include "usb_bench/apt_mount.h"
 #include "usb_bench/bench_options.h"
 #include "usb_bench/client.h"
-#include "usb_bench/elliptec_bus.h"
-#include "usb_bench/obp_device.h"
-#include "usb_bench/ooi_device.h"
-#include "usb_bench/tmc_device.h"
+#include "usb_bench/make_devices.h"
 #include "usb_bench/usb_testbed.h"
 
 namespace drude::usb_bench {
@@ -33,25 +29,6 @@ namespace drude::usb_bench {
 namespace {
 
 constexpr int left_something = 125, hung = 124;
-
-std::unique_ptr<VirtualDevice> make_device(const DeviceOption& option, double move_s,
-                                           OpticalBench& bench, FaultPlan& faults) {
-    if (option.scheme == "ooi") return std::make_unique<OoiDevice>(option.serial, bench, faults);
-    if (option.scheme == "obp") return std::make_unique<ObpDevice>(option.serial, bench, faults);
-    if (option.scheme == "ell") {
-        return std::make_unique<ElliptecBus>(
-            option.serial, std::vector<Role>{Role::polariser, Role::analyser, Role::retarder},
-            move_s, bench, faults);
-    }
-    if (option.scheme == "apt-sample" || option.scheme == "apt-arm") {
-        const Role role = option.scheme == "apt-arm" ? Role::detector_arm : Role::sample_stage;
-        return std::make_unique<AptMount>(option.serial, role, move_s, bench, faults);
-    }
-    if (option.scheme == "usbtmc") {
-        return std::make_unique<TmcDevice>(option.serial, bench.optics().sample(), faults);
-    }
-    user_error("--device: no model of '{}'", option.scheme);
-}
 
 // The bench file of the devices (device/sweep/bench_file.h), with the calibration that the settings
 // amount to beside it.
@@ -147,15 +124,7 @@ int work(const BenchOptions& options) {
     FaultPlan faults;
     for (const PlannedFault& fault : options.faults) faults.add(fault);
     OpticalBench optics(find_material(options.material), options.settings, options.frozen_noise);
-    bool has_arms = false;
-    for (const DeviceOption& device : options.devices) {
-        has_arms = has_arms || device.scheme == "apt-sample";
-    }
-    if (!has_arms) optics.fix_arms(options.incidence_deg);
-    std::vector<std::unique_ptr<VirtualDevice>> devices;
-    for (const DeviceOption& device : options.devices) {
-        devices.push_back(make_device(device, options.move_s, optics, faults));
-    }
+    const auto devices = make_devices(options, optics, faults);
     UsbTestbed bed;
     for (size_t i = 0; i < devices.size(); ++i) {
         bed.plug(*devices[i], {options.devices[i].refused, options.devices[i].busy});

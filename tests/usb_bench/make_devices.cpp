@@ -1,0 +1,47 @@
+#include "usb_bench/make_devices.h"
+
+#include "base/error.h"
+#include "usb_bench/apt_mount.h"
+#include "usb_bench/elliptec_bus.h"
+#include "usb_bench/obp_device.h"
+#include "usb_bench/ooi_device.h"
+#include "usb_bench/tmc_device.h"
+
+namespace drude::usb_bench {
+
+namespace {
+
+std::unique_ptr<VirtualDevice> make_device(const DeviceOption& option, double move_s,
+                                           OpticalBench& bench, FaultPlan& faults) {
+    if (option.scheme == "ooi") return std::make_unique<OoiDevice>(option.serial, bench, faults);
+    if (option.scheme == "obp") return std::make_unique<ObpDevice>(option.serial, bench, faults);
+    if (option.scheme == "ell") {
+        return std::make_unique<ElliptecBus>(
+            option.serial, std::vector<Role>{Role::polariser, Role::analyser, Role::retarder},
+            move_s, bench, faults);
+    }
+    if (option.scheme == "apt-sample" || option.scheme == "apt-arm") {
+        const Role role = option.scheme == "apt-arm" ? Role::detector_arm : Role::sample_stage;
+        return std::make_unique<AptMount>(option.serial, role, move_s, bench, faults);
+    }
+    if (option.scheme == "usbtmc") {
+        return std::make_unique<TmcDevice>(option.serial, bench.optics().sample(), faults);
+    }
+    user_error("--device: no model of '{}'", option.scheme);
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<VirtualDevice>> make_devices(const BenchOptions& options,
+                                                         OpticalBench& bench, FaultPlan& faults) {
+    bool has_arms = false;
+    std::vector<std::unique_ptr<VirtualDevice>> devices;
+    for (const DeviceOption& option : options.devices) {
+        has_arms = has_arms || option.scheme == "apt-sample";
+        devices.push_back(make_device(option, options.move_s, bench, faults));
+    }
+    if (!has_arms) bench.fix_arms(options.incidence_deg);
+    return devices;
+}
+
+}  // namespace drude::usb_bench
