@@ -24,7 +24,8 @@ struct Azimuth {
     double fixed_deg = 45;
 };
 
-// The retarder stands between sample and analyser, its fast axis along p when it is in the beam.
+// The retarder stands between sample and analyser, its fast axis along s when it is in the beam, so
+// that it holds p back.
 // A mount whose arm swings it in and out, or a person who is asked to.
 struct RetarderArm {
     bool present = false;

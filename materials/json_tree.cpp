@@ -267,6 +267,11 @@ double JsonValue::number() const {
     return node_->number;
 }
 
+bool JsonValue::boolean() const {
+    expect(JsonNode::Kind::boolean);
+    return node_->number != 0;
+}
+
 std::vector<JsonValue> JsonValue::array() const {
     expect(JsonNode::Kind::array);
     std::vector<JsonValue> values;

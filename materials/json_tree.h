@@ -54,6 +54,7 @@ class JsonValue {
 
     std::string string() const;
     double number() const;
+    bool boolean() const;
     std::vector<double> numbers() const;
     std::vector<std::string> strings() const;
     std::vector<JsonValue> array() const;

@@ -17,6 +17,8 @@ struct ReductionOptions {
     // Standard deviation of where the polariser's mount ends against what it reports: the part of
     // the error that all wavelengths share. 0: none is stated.
     double mount_repeatability_deg = 0;
+    // The same of the analyser's mount, which moves once a scan.
+    double analyser_repeatability_deg = 0;
 };
 
 // What a scan says about the bench, the mean over the wavelengths that were used.
@@ -34,19 +36,29 @@ struct Reduction {
     std::vector<MeasurementRow> rows;  // wavelengths outermost; depolarization filled in
     // Covariance of Psi and Delta of each row in degrees squared, off the diagonal.
     std::vector<double> covariance_psi_delta;
-    // Standard deviations in degrees of the error that all wavelengths of an angle share, from the
-    // stated repeatability of the mounts; one for each distinct angle, ascending.
+    // Standard deviations in degrees of the error that all wavelengths of an angle share: from the
+    // stated repeatability of the mounts and the calibration's sigmas of the azimuths, the root
+    // mean square over the angle's rows, which do not hold it; one for each distinct angle,
+    // ascending.
     std::vector<double> angles_deg, common_sigma_psi_deg, common_sigma_delta_deg;
     std::vector<ScanQuality> quality;
     std::vector<std::string> warnings;
 };
 
-// All scans of a sweep: of each angle of incidence at least one; scans with the retarder make Delta
-// known over 360 degrees, without them its sign is taken as that of a bare metal (0 to 180) with a
-// warning. Zones (analyser azimuths) are averaged. Bins without a usable pixel, and pairs that no
-// sample gives (|cos Delta| above 1 beyond its noise), are left out with a warning. Throws Error
-// (user) where a scan cannot be reduced at all (too few distinct angles, pixel counts that differ),
-// Error (answer_is_no) where no row is left.
+// All scans of a sweep: of each angle of incidence at least one without the retarder; scans with it
+// make Delta known over 360 degrees, without them its sign is taken as that of a bare metal (0 to
+// 180) with a warning. Where the calibration does not know the retarder, it is taken for a
+// quarter-wave plate that decides the half of the circle only. Zones (analyser azimuths) are
+// averaged (psi_delta.h). Bins without a usable pixel in every scan, and pairs that no sample gives
+// (|cos Delta| above 1 beyond 4 standard deviations), are left out with a warning; |cos Delta|
+// above 1 by noise becomes 0 or 180 degrees with a warning.
+//
+// depolarization is 1 - P^2 with P^2 = cos^2 2Psi + sin^2 2Psi (cos^2 Delta + sin^2 Delta), the two
+// squares as the two cycles give them, kept within [0, 1]; -1 with one cycle, which cannot see it.
+//
+// Throws Error (user) where a scan cannot be reduced at all (too few distinct angles, pixel counts
+// that differ, a straight-through scan, an analyser along p or s), Error (answer_is_no) where no
+// row is left.
 Reduction reduce_scans(const std::vector<Scan>& scans, const SpectrometerInfo& spectrometer,
                        const Calibration& calibration, const ReductionOptions& options);
 
