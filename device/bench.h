@@ -42,7 +42,10 @@ struct Bench {
     Azimuth polariser, analyser;
     RetarderArm retarder;
     std::shared_ptr<Goniometer> goniometer;
+    bool goniometer_by_hand = false;     // somebody is asked to move it
+    double fixed_incidence_deg = 0;      // where the arms do not move; 0: they do
     std::shared_ptr<PsiDeltaHead> head;  // instead of everything above
+    std::string calibration;             // the file that goes with it; empty: none
     std::string sample;                  // its name, where the bench knows it (virtual ones do)
     std::vector<std::pair<std::string, std::string>> notes;  // for the measurement's header
     std::vector<std::string> warnings;

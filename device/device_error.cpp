@@ -22,6 +22,8 @@ const char* fault_name(Fault fault) {
             return "refused";
         case Fault::mechanical:
             return "mechanical";
+        case Fault::interrupted:
+            return "interrupted";
     }
     return "unknown";
 }

@@ -9,15 +9,16 @@
 namespace drude {
 
 enum class Fault {
-    timeout,     // no answer before the deadline
-    stall,       // the endpoint is halted
-    short_read,  // fewer bytes than the protocol says
-    overflow,    // more bytes than asked for
-    bad_frame,   // a sync byte, checksum, echo or length that is wrong
-    unplugged,   // gone from the bus
-    io,          // the host controller or the kernel says no
-    refused,     // the instrument answered that it will not or cannot
-    mechanical,  // a mount that did not arrive, or not where it was sent
+    timeout,      // no answer before the deadline
+    stall,        // the endpoint is halted
+    short_read,   // fewer bytes than the protocol says
+    overflow,     // more bytes than asked for
+    bad_frame,    // a sync byte, checksum, echo or length that is wrong
+    unplugged,    // gone from the bus
+    io,           // the host controller or the kernel says no
+    refused,      // the instrument answered that it will not or cannot
+    mechanical,   // a mount that did not arrive, or not where it was sent
+    interrupted,  // a signal asked the program to stop (base/interrupt.h); nothing is wrong
 };
 
 // "time-out", "stall", ...: what journals and tests call it.

@@ -14,6 +14,12 @@ enum class RecipeKind {
     azimuth,           // "azimuth": calibration of the plane of incidence with a sample
 };
 
+// "psi-delta", ...; recipe_kind() throws Error (user) with the nearest of them.
+const char* recipe_kind_name(RecipeKind kind);
+RecipeKind recipe_kind(const std::string& name);
+
+// Angles are in degrees, wavelengths in nanometres, as in every file. For "azimuth" zones_deg are
+// the positions of the analyser about the plane of incidence; "straight-through" uses no angle.
 struct Recipe {
     RecipeKind kind = RecipeKind::psi_delta;
     std::string sample;  // its name, for the header
@@ -35,6 +41,9 @@ struct Recipe {
 
     void check(const std::string& where) const;  // throws Error (user)
 };
+
+// What a recipe of this kind holds where nothing is said.
+Recipe default_recipe(RecipeKind kind);
 
 std::string format_recipe(const Recipe& recipe);  // canonical: its hash identifies a sweep
 Recipe parse_recipe(const std::string& json, const std::string& file);

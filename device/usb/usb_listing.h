@@ -1,4 +1,4 @@
-// What is plugged in, through libusb. The only file pair of the project that calls it.
+// What is plugged in, through libusb.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,10 @@ struct UsbDevice {
     // As the device states them; empty where it has none or may not be opened.
     std::string manufacturer, product_name, serial;
     InstrumentFamily family;
-    bool permitted = true;  // false: the system does not let this user open it
-    std::string problem;    // why it could not be opened, in words; empty where it could
+    std::string uri;          // by which it is opened; empty where nothing here can open it
+    bool high_speed = false;  // 480 Mbit/s or more
+    bool permitted = true;    // false: the system does not let this user open it
+    std::string problem;      // why it could not be opened, in words; empty where it could
 };
 
 struct UsbListing {

@@ -42,6 +42,8 @@ class UsbPort {
     virtual size_t packet_size(uint8_t endpoint) const = 0;
     // Endpoints of the claimed interface: address and bmAttributes & 3 (2 bulk, 3 interrupt).
     virtual std::vector<std::pair<uint8_t, uint8_t>> endpoints() const = 0;
+    // bInterfaceNumber of the claimed interface, which class requests name.
+    virtual uint8_t interface_number() const { return 0; }
 
     // All of `bytes`, or throws DeviceError.
     virtual void write(uint8_t endpoint, std::span<const uint8_t> bytes, Deadline deadline) = 0;

@@ -48,13 +48,13 @@ Mueller<double> leaking_polariser(double azimuth_deg, double leak) {
     return sum;
 }
 
-// The fast axis is along s, which is x. An amplitude transmittance of p over s above 1 means that
+// The fast axis is along p. An amplitude transmittance of p over s above 1 means that
 // less of s comes through.
 Mueller<double> retarder(double retardance_deg, double diattenuation) {
     const double most = std::max(1.0, diattenuation);
     const double s = 1 / most, p = diattenuation / most;
     const Reflection<double> transmitted{s * s, p * p, s * p, 0};
-    return mueller(transmitted) * linear_retarder(Rotation<double>{1, 0}, retardance_deg * degree);
+    return mueller(transmitted) * linear_retarder(axis_at(0), retardance_deg * degree);
 }
 
 // Relative spectral energy of a black body (Planck) times a bell-shaped response of the detector.

@@ -46,8 +46,8 @@ struct VirtualBenchSettings {
     double analyser_extinction = 0;
     double polariser_offset_deg = 0, analyser_offset_deg = 0;  // of the true axis against what
                                                                // the mount reports (0.3)
-    double retardance_deg = 90;  // of p behind s at retarder_nm; a zero-order plate whose fast
-                                 // axis is along s: goes as 1/wavelength
+    double retardance_deg = 90;  // of p ahead of s at retarder_nm; a zero-order plate whose fast
+                                 // axis is along p: goes as 1/wavelength
     double retarder_nm = 550;
     double retarder_diattenuation = 1;  // amplitude of p over that of s
     double eccentricity_deg = 0;  // of the polariser's mount: azimuth error of once a turn (0.2)

@@ -7,6 +7,8 @@ namespace drude {
 
 Command eval_command();
 Command simulate_command();
+Command capture_command();
+Command reduce_command();
 Command convert_command();
 Command fit_command();
 Command render_command();

@@ -85,8 +85,8 @@ double turned(double degrees) {
     return degrees - 360 * std::round(degrees / 360);
 }
 
-// Fields in the frame of p and s. r_p and r_s with conventions' signs; the retarder holds p back,
-// which with exp(-i omega t) is a factor exp(+i d); analyser and polariser stand counter-clockwise
+// Fields in the frame of p and s. r_p and r_s with conventions' signs; the retarder brings p ahead,
+// which with exp(-i omega t) is a factor exp(-i d); analyser and polariser stand counter-clockwise
 // from p, where s stands clockwise of it seen looking towards the source: e = (cos, -sin).
 double jones_intensity(const ComplexIndex<double>& index, double incidence, double P, double A,
                        double retardance, double diattenuation) {
@@ -95,7 +95,7 @@ double jones_intensity(const ComplexIndex<double>& index, double incidence, doub
     const Complex64 c1 = std::sqrt(1.0 - std::pow(std::sin(incidence) / N, 2));
     const Complex64 rs = (c - N * c1) / (c + N * c1), rp = (N * c - c1) / (N * c + c1);
     const double scale = 1 / std::max(1.0, diattenuation);
-    const Complex64 p = diattenuation * scale * std::polar(1.0, retardance) * rp * std::cos(P);
+    const Complex64 p = diattenuation * scale * std::polar(1.0, -retardance) * rp * std::cos(P);
     const Complex64 s = -scale * rs * std::sin(P);
     return std::norm(p * std::cos(A) - s * std::sin(A));
 }
@@ -153,12 +153,12 @@ TEST(VirtualOptics, ScansHaveTheHarmonicsOfPsiAndDelta) {
                         EXPECT_NEAR(got.beta[i], 2 * x * std::cos(angle) * tan_a / sum, 1e-12);
                     };
                     expect(bare, 1, Delta);
-                    expect(held, 0.97, Delta - d);
+                    expect(held, 0.97, Delta + d);
                     const double sign = tan_a > 0 ? 1 : -1;
                     const auto cosine = [&](const Harmonics& h) {
                         return sign * h.beta[i] / std::sqrt(1 - h.alpha[i] * h.alpha[i]);
                     };
-                    const double sine = (cosine(held) - cosine(bare) * std::cos(d)) / std::sin(d);
+                    const double sine = (cosine(bare) * std::cos(d) - cosine(held)) / std::sin(d);
                     EXPECT_NEAR(turned((std::atan2(sine, cosine(bare)) - Delta) / degree), 0, 1e-9);
                     // A bare metal.
                     EXPECT_GT(Delta, 0);
@@ -186,8 +186,8 @@ TEST(VirtualOptics, FilmsThatTurnDeltaBeyond180AreSeen) {
     const auto cosine = [](const Harmonics& h) {
         return h.beta[1] / std::sqrt(1 - h.alpha[1] * h.alpha[1]);
     };
-    // A quarter-wave plate at 550 nm: cos(Delta - 90) = sin Delta.
-    EXPECT_NEAR(std::atan2(cosine(held), cosine(bare)) / degree + 360, 231.155169, 1e-6);
+    // A quarter-wave plate at 550 nm: cos(Delta + 90) = -sin Delta.
+    EXPECT_NEAR(std::atan2(-cosine(held), cosine(bare)) / degree + 360, 231.155169, 1e-6);
     EXPECT_NEAR(std::atan(std::sqrt((1 + bare.alpha[1]) / (1 - bare.alpha[1]))) / degree, 44.924760,
                 1e-6);
 }

@@ -1,0 +1,267 @@
+#include "device/instruments/ooi_spectrometer.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "device/instruments/ooi_models.h"
+#include "device/instruments/ooi_protocol.h"
+#include "device/instruments/spectrometer_link.h"
+#include "device/instruments/stored_calibration.h"
+
+namespace drude {
+
+namespace {
+
+constexpr double command_s = 1;  // for a request to be taken, and a reply from memory to come
+constexpr double margin_s = 1;   // of a frame
+constexpr size_t first_part_bytes = 2048;
+
+// Requests and their replies, without state of the spectrometer.
+class OoiLink {
+  public:
+    OoiLink(UsbPort& port, const OoiModel& model) : port_(port), model_(model) {}
+
+    void send(const OoiBytes& request) { port_.write(model_.out, request, deadline_in(command_s)); }
+
+    // The reply to `request` that `belongs`; what an earlier request left behind is dropped. Where
+    // only such replies came, the last of them is returned, for its parser to complain about.
+    OoiBytes query(const OoiBytes& request,
+                   const std::function<bool(std::span<const uint8_t>)>& belongs) {
+        send(request);
+        const Deadline deadline = deadline_in(command_s);
+        OoiBytes stale;
+        for (int replies = 0; replies < 16; ++replies) {
+            OoiBytes reply(whole_packets(port_, model_.reply, ooi_slot_bytes));
+            try {
+                reply.resize(port_.read(model_.reply, reply, deadline));
+            } catch (const DeviceError& error) {
+                if (error.fault() != Fault::timeout || stale.empty()) throw;
+                break;
+            }
+            if (belongs(reply)) return reply;
+            if (!reply.empty()) stale = std::move(reply);
+        }
+        return stale;
+    }
+
+    std::array<uint8_t, 15> slot(uint8_t number) {
+        const OoiBytes reply = query(ooi_query_slot(number), [&](std::span<const uint8_t> bytes) {
+            return is_ooi_slot_reply(bytes, number);
+        });
+        return parse_ooi_slot(reply, number, port_.name());
+    }
+
+    OoiStatus status() {
+        const OoiBytes reply = query(ooi_query_status(), [](std::span<const uint8_t> bytes) {
+            return bytes.size() == ooi_status_bytes;
+        });
+        return parse_ooi_status(reply, port_.name());
+    }
+
+    void initialize(BenchClock& clock) {
+        send(ooi_initialize());
+        clock.sleep(0.1);
+    }
+    void drain() { drain_all(port_, {model_.reply, model_.spectrum, model_.first}); }
+    void clear() {
+        clear_transport(port_, {model_.out, model_.reply, model_.spectrum, model_.first});
+    }
+
+  private:
+    UsbPort& port_;
+    const OoiModel& model_;
+};
+
+class OoiSpectrometer : public Spectrometer {
+  public:
+    OoiSpectrometer(std::shared_ptr<UsbPort> port, const OoiModel& model, BenchClock& clock)
+        : port_(std::move(port)), model_(model), clock_(clock), link_(*port_, model) {
+        with_retries(
+            [&] {
+                start();
+                read_calibration();
+                set_integration_time(std::clamp(0.1, info_.shortest_s, info_.longest_s));
+            },
+            [&] { link_.clear(); });
+    }
+
+    const SpectrometerInfo& info() const override { return info_; }
+    double integration_time() const override { return integration_s_; }
+
+    void set_integration_time(double seconds) override {
+        const uint32_t units = integration_units(seconds, info_.shortest_s, info_.longest_s,
+                                                 model_.unit_us, port_->name());
+        link_.send(ooi_set_integration_time(units));
+        units_ = units;
+        // The exposure that runs now keeps the time that it began with.
+        running_s_ = std::max(running_s_, integration_s_);
+        integration_s_ = 1e-6 * model_.unit_us * units;
+    }
+
+    void set_lamp(bool on) override {
+        link_.send(ooi_set_lamp(on));
+        lamp_ = on;
+        lamp_is_ours_ = true;
+    }
+
+    Frame acquire() override {
+        Frame frame;
+        frame.requested_s = clock_.now();
+        link_.send(ooi_request_spectrum());
+        // The exposure that runs now, at worst the whole of the next, its readout.
+        const Deadline deadline = deadline_in(std::max(running_s_, integration_s_) +
+                                              integration_s_ + info_.readout_s + margin_s);
+        OoiBytes bytes;
+        bytes.reserve(model_.frame_bytes());
+        if (high_speed_ && model_.first != 0)
+            read_part(model_.first, first_part_bytes, deadline, &bytes);
+        const uint8_t endpoint = high_speed_ ? model_.spectrum : model_.reply;
+        read_part(endpoint, model_.frame_bytes() - bytes.size(), deadline, &bytes);
+        frame.arrived_s = clock_.now();
+        frame.counts = parse_ooi_frame(bytes, model_, port_->name());
+        running_s_ = integration_s_;
+        return frame;
+    }
+
+    void recover() override {
+        link_.clear();
+        with_retries(
+            [&] {
+                start();
+                restore();
+            },
+            [&] { link_.clear(); });
+    }
+
+    bool reconnect(double seconds) override {
+        if (!port_->reopen(seconds)) return false;
+        recover();
+        return true;
+    }
+
+  private:
+    // From any state to one in which requests are answered.
+    void start() {
+        link_.drain();
+        link_.initialize(clock_);
+        link_.drain();  // an exposure that the initialisation did not stop
+        // The oldest models are full-speed devices that use the same endpoint on every link.
+        high_speed_ = !model_.has_status || link_.status().high_speed;
+        link_.send(ooi_set_trigger_mode(0));
+        info_.readout_s = model_.readout_s;
+        // 12 Mbit/s carry about 1 MB a second.
+        if (!port_->high_speed())
+            info_.readout_s += 1.2e-6 * static_cast<double>(model_.frame_bytes());
+    }
+
+    void restore() {
+        link_.send(ooi_set_integration_time(units_));
+        running_s_ = integration_s_;
+        if (lamp_is_ours_) link_.send(ooi_set_lamp(lamp_));
+    }
+
+    void read_calibration() {
+        info_.warnings.clear();
+        const std::string in_memory = stored_text(link_.slot(0));
+        info_.serial = in_memory.empty() ? port_->serial() : in_memory;
+        info_.uri = "ooi:" + (port_->serial().empty() ? in_memory : port_->serial());
+        info_.model = fmt::format("Ocean Optics {}", model_.name);
+        info_.max_counts = model_.max_counts;
+        info_.shortest_s = 1e-6 * model_.shortest_us;
+        info_.longest_s = 1e-6 * model_.longest_us;
+        info_.dark_first = model_.dark_first;
+        info_.dark_count = model_.dark_count;
+        info_.has_lamp_control = true;
+
+        std::vector<double> wavelength;
+        for (uint8_t slot = 1; slot <= 4; ++slot) {
+            wavelength.push_back(ooi_slot_number(link_.slot(slot)));
+        }
+        info_.wavelength_nm =
+            polynomial_wavelengths(wavelength, model_.pixels, model_.pixel_origin, port_->name());
+        if (model_.saturation != SaturationSlot::none) {
+            info_.max_counts = parse_ooi_saturation(link_.slot(17), model_);
+        }
+        read_nonlinearity();
+        if (model_.has_status && !high_speed_) {
+            info_.warnings.push_back(
+                "it is on a full-speed link (12 Mbit/s): spectra take longer; a USB 2 port without "
+                "an old hub between would be faster");
+        }
+    }
+
+    void read_nonlinearity() {
+        info_.nonlinearity.clear();
+        const double order = ooi_slot_number(link_.slot(14));
+        std::string reason;
+        std::vector<double> coefficients;
+        if (!(order >= 0 && order <= 7)) {
+            reason = "their order is not a number from 0 to 7";
+        } else {
+            for (uint8_t i = 0; i <= static_cast<uint8_t>(order); ++i) {
+                coefficients.push_back(ooi_slot_number(link_.slot(static_cast<uint8_t>(6 + i))));
+            }
+            reason = why_nonlinearity_is_unusable(coefficients, info_.max_counts);
+        }
+        if (reason.empty()) {
+            info_.nonlinearity = std::move(coefficients);
+        } else {
+            info_.warnings.push_back("the non-linearity coefficients in its memory are not used: " +
+                                     reason);
+        }
+    }
+
+    void read_part(uint8_t endpoint, size_t wanted, Deadline deadline, OoiBytes* bytes) {
+        OoiBytes part(whole_packets(*port_, endpoint, wanted));
+        size_t count = port_->read(endpoint, part, deadline);
+        // An empty packet that ended an earlier message.
+        if (count == 0) count = port_->read(endpoint, part, deadline);
+        if (count != wanted) {
+            device_error(count < wanted ? Fault::short_read : Fault::overflow,
+                         "{}: {} bytes of a spectrum came from endpoint {:02x} instead of {}",
+                         port_->name(), count, endpoint, wanted);
+        }
+        bytes->insert(bytes->end(), part.begin(),
+                      part.begin() + static_cast<std::ptrdiff_t>(count));
+    }
+
+    std::shared_ptr<UsbPort> port_;
+    const OoiModel& model_;
+    BenchClock& clock_;
+    OoiLink link_;
+    SpectrometerInfo info_;
+    bool high_speed_ = true;
+    uint32_t units_ = 0;
+    double integration_s_ = 0;
+    double running_s_ = 0;  // of the exposure that may be running: set before the last change
+    bool lamp_ = false, lamp_is_ours_ = false;
+};
+
+}  // namespace
+
+std::shared_ptr<Spectrometer> open_ooi(std::shared_ptr<UsbPort> port, BenchClock& clock) {
+    const OoiModel* model = find_ooi_model(port->product());
+    if (!model) {
+        user_error("{}: it is no spectrometer of the OOI protocol ({:04x}:{:04x})", port->name(),
+                   port->vendor(), port->product());
+    }
+    return std::make_shared<OoiSpectrometer>(std::move(port), *model, clock);
+}
+
+std::string ask_ooi_serial(UsbPort& port) {
+    const OoiModel* model = find_ooi_model(port.product());
+    if (!model) return {};
+    OoiLink link(port, *model);
+    std::string serial;
+    with_retries(
+        [&] {
+            link.drain();
+            link.initialize(real_clock());
+            serial = stored_text(link.slot(0));
+        },
+        [&] { link.clear(); });
+    return serial;
+}
+
+}  // namespace drude

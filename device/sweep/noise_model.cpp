@@ -1,0 +1,208 @@
+#include "device/sweep/noise_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace drude {
+
+namespace {
+
+constexpr size_t classes = 48;
+constexpr double rounding_variance = 1.0 / 12;
+
+// Of equal width in the square root of the signal, whose photon noise is then the same everywhere.
+class SignalClasses {
+  public:
+    explicit SignalClasses(double max_counts) : max_counts_(max_counts) {}
+
+    void add(double net, double variance, double weight) {
+        const double fraction = std::clamp(net / max_counts_, 0.0, 1.0);
+        const size_t i =
+            std::min(classes - 1, static_cast<size_t>(std::sqrt(fraction) * double{classes}));
+        Class& c = all_[i];
+        c.weight += weight;
+        c.net += weight * net;
+        c.square += weight * net * net;
+        c.variance += weight * variance;
+        ++readings_;
+    }
+
+    // The non-negative coefficients of 1, net and net^2 with the least weighted residual: with
+    // three of them every set of those above zero can be tried.
+    NoiseModel fit() const {
+        std::array<double, 3> best{};
+        double best_residual = -1;
+        for (unsigned set = 1; set < 8; ++set) {
+            const auto coefficients = solve(set);
+            if (!coefficients) continue;
+            const double residual = residual_of(*coefficients);
+            if (best_residual >= 0 && residual >= best_residual) continue;
+            best = *coefficients;
+            best_residual = residual;
+        }
+        NoiseModel model;
+        model.read = best[0];
+        model.photon = best[1] / max_counts_;
+        model.relative = best[2] / (max_counts_ * max_counts_);
+        model.readings = readings_;
+        return model;
+    }
+
+  private:
+    struct Class {
+        double weight = 0, net = 0, square = 0, variance = 0;
+    };
+
+    std::array<double, 3> powers(const Class& c) const {
+        return {1, c.net / c.weight / max_counts_,
+                c.square / c.weight / (max_counts_ * max_counts_)};
+    }
+    static double target(const Class& c) {
+        return std::max(c.variance / c.weight, rounding_variance);
+    }
+    // The variance of a mean of n squares is about 2 v^2 / n.
+    static double weight(const Class& c) { return c.weight / (target(c) * target(c)); }
+
+    double residual_of(const std::array<double, 3>& x) const {
+        double sum = 0;
+        for (const Class& c : all_) {
+            if (!(c.weight > 0)) continue;
+            const auto p = powers(c);
+            const double miss = target(c) - x[0] * p[0] - x[1] * p[1] - x[2] * p[2];
+            sum += weight(c) * miss * miss;
+        }
+        return sum;
+    }
+
+    // Normal equations of the coefficients in `set` by elimination; nothing where they are singular
+    // or a coefficient is negative.
+    std::optional<std::array<double, 3>> solve(unsigned set) const {
+        std::array<size_t, 3> column{};
+        size_t n = 0;
+        for (size_t i = 0; i < 3; ++i) {
+            if (set >> i & 1U) column[n++] = i;
+        }
+        double m[3][4] = {};
+        for (const Class& c : all_) {
+            if (!(c.weight > 0)) continue;
+            const auto p = powers(c);
+            for (size_t i = 0; i < n; ++i) {
+                for (size_t j = 0; j < n; ++j) m[i][j] += weight(c) * p[column[i]] * p[column[j]];
+                m[i][n] += weight(c) * p[column[i]] * target(c);
+            }
+        }
+        for (size_t i = 0; i < n; ++i) {
+            size_t pivot = i;
+            for (size_t k = i + 1; k < n; ++k) {
+                if (std::abs(m[k][i]) > std::abs(m[pivot][i])) pivot = k;
+            }
+            if (!(std::abs(m[pivot][i]) > 0)) return {};
+            std::swap(m[i], m[pivot]);
+            for (size_t k = 0; k < n; ++k) {
+                if (k == i) continue;
+                const double factor = m[k][i] / m[i][i];
+                for (size_t j = i; j <= n; ++j) m[k][j] -= factor * m[i][j];
+            }
+        }
+        std::array<double, 3> x{};
+        for (size_t i = 0; i < n; ++i) {
+            x[column[i]] = m[i][n] / m[i][i];
+            if (!(x[column[i]] >= 0)) return {};
+        }
+        return x;
+    }
+
+    double max_counts_;
+    size_t readings_ = 0;
+    std::array<Class, classes> all_{};
+};
+
+// Mean and variance over frames of one pixel.
+struct Scatter {
+    double mean = 0, variance = 0;
+    bool saturated = false;
+};
+
+Scatter scatter(const std::vector<Frame>& frames, size_t pixel, uint32_t max_counts) {
+    Scatter s;
+    const double n = static_cast<double>(frames.size());
+    for (const Frame& frame : frames) {
+        s.mean += frame.counts[pixel] / n;
+        s.saturated = s.saturated || frame.counts[pixel] >= max_counts;
+    }
+    for (const Frame& frame : frames) {
+        const double miss = frame.counts[pixel] - s.mean;
+        s.variance += miss * miss / std::max(1.0, n - 1);
+    }
+    return s;
+}
+
+void add_frames(const std::vector<Frame>& frames, const std::vector<double>& dark,
+                uint32_t max_counts, SignalClasses* all) {
+    if (frames.size() < 2) return;
+    for (size_t i = 0; i < dark.size(); ++i) {
+        const Scatter s = scatter(frames, i, max_counts);
+        if (!s.saturated) {
+            all->add(s.mean - dark[i], s.variance, static_cast<double>(frames.size() - 1));
+        }
+    }
+}
+
+void add_half_turn(const JournalPoint& a, const JournalPoint& b, const std::vector<double>& dark,
+                   uint32_t max_counts, SignalClasses* all) {
+    const auto& x = a.frames.front().counts;
+    const auto& y = b.frames.front().counts;
+    for (size_t i = 0; i + 1 < dark.size(); ++i) {
+        if (std::max({x[i], y[i], x[i + 1], y[i + 1]}) >= max_counts) continue;
+        const double here = 1.0 * x[i] - y[i], there = 1.0 * x[i + 1] - y[i + 1];
+        const double net = (1.0 * x[i] + y[i]) / 2 - dark[i];
+        // Two differences of two readings: four times the variance of one.
+        all->add(net, (here - there) * (here - there) / 4, 1);
+    }
+}
+
+}  // namespace
+
+double NoiseModel::variance(double net_counts) const {
+    const double net = std::max(0.0, net_counts);
+    return std::max(rounding_variance, read + photon * net + relative * net * net);
+}
+
+NoiseModel fit_noise_model(const Journal& journal) {
+    const uint32_t max_counts = journal.header->spectrometer.max_counts;
+    SignalClasses all(max_counts);
+    std::map<uint32_t, std::vector<double>> darks;
+    for (const JournalDark& dark : journal.darks) {
+        std::vector<double> mean(dark.frames.front().counts.size());
+        for (size_t i = 0; i < mean.size(); ++i) {
+            const Scatter s = scatter(dark.frames, i, max_counts);
+            mean[i] = s.mean;
+            if (dark.frames.size() > 1 && !s.saturated) {
+                all.add(0, s.variance, static_cast<double>(dark.frames.size() - 1));
+            }
+        }
+        darks.emplace(dark.block, std::move(mean));
+    }
+    std::map<std::pair<uint32_t, double>, const JournalPoint*> single;
+    for (const JournalPoint& point : journal.points) {
+        const PlanPoint& plan = journal.plan[point.index];
+        const auto dark = darks.find(plan.block);
+        if (dark == darks.end()) continue;
+        add_frames(point.frames, dark->second, max_counts, &all);
+        if (point.frames.size() > 1) continue;
+        const double half_turn =
+            plan.polariser_deg >= 180 ? plan.polariser_deg - 180 : plan.polariser_deg + 180;
+        const auto other = single.find({plan.scan, half_turn});
+        if (other != single.end()) {
+            add_half_turn(point, *other->second, dark->second, max_counts, &all);
+        }
+        single[{plan.scan, plan.polariser_deg}] = &point;
+    }
+    return all.fit();
+}
+
+}  // namespace drude
