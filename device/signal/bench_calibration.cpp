@@ -233,10 +233,12 @@ Calibration calibrate_straight_through(const std::vector<Scan>& scans,
 
     // With what is known by now the retarder is a sample of tan Psi = t and Delta = d.
     std::vector<std::vector<BinnedFit>> corrected;
+    std::vector<std::string> said_before;
     for (const Scan& scan : scans) {
         if (!scan.retarder_in) continue;
-        corrected.push_back(bin_fit(fit_scan(scan, spectrometer, calibration, options, warnings),
-                                    spectrometer, calibration, options));
+        corrected.push_back(
+            bin_fit(fit_scan(scan, spectrometer, calibration, options, &said_before), spectrometer,
+                    calibration, options));
         if (std::abs(std::sin(2 * scan.analyser_deg * degree)) < 0.05) {
             user_error("the scan {} has its analyser along p or s, where a retarder is not seen",
                        scan_name(scan));
@@ -321,12 +323,13 @@ void calibrate_azimuth(const std::vector<Scan>& scans, const SpectrometerInfo& s
     WeightedMean analyser, polariser, sine2_delta;
     // The source's polarisation is divided out at azimuths that the first pass finds.
     for (int pass = 0; pass < 2; ++pass) {
+        std::vector<std::string> said_before;
         std::vector<std::vector<BinnedFit>> fits;
         std::vector<double> analyser_rad;
         for (size_t i = 0; i < scans.size(); ++i) {
-            fits.push_back(
-                bin_fit(fit_scan(scans[i], spectrometer, *calibration, options, warnings),
-                        spectrometer, *calibration, options));
+            fits.push_back(bin_fit(fit_scan(scans[i], spectrometer, *calibration, options,
+                                            pass == 0 ? warnings : &said_before),
+                                   spectrometer, *calibration, options));
             analyser_rad.push_back(reported_rad[i] - calibration->analyser_offset_deg * degree);
         }
         analyser = polariser = sine2_delta = {};
