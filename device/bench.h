@@ -24,8 +24,7 @@ struct Azimuth {
     double fixed_deg = 45;
 };
 
-// The retarder stands between sample and analyser, its fast axis along s when it is in the beam, so
-// that it holds p back.
+// The retarder stands between sample and analyser, its fast axis along p when it is in the beam.
 // A mount whose arm swings it in and out, or a person who is asked to.
 struct RetarderArm {
     bool present = false;

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace drude {
 
@@ -121,22 +122,28 @@ class SignalClasses {
     std::array<Class, classes> all_{};
 };
 
-// Mean and variance over frames of one pixel.
+// Over frames, of every pixel; frame by frame, since that is how they lie in memory.
 struct Scatter {
-    double mean = 0, variance = 0;
-    bool saturated = false;
+    std::vector<double> mean, variance;
+    std::vector<uint32_t> largest;
 };
 
-Scatter scatter(const std::vector<Frame>& frames, size_t pixel, uint32_t max_counts) {
-    Scatter s;
+Scatter scatter(const std::vector<Frame>& frames) {
+    const size_t pixels = frames.front().counts.size();
     const double n = static_cast<double>(frames.size());
+    Scatter s{std::vector<double>(pixels), std::vector<double>(pixels),
+              std::vector<uint32_t>(pixels)};
     for (const Frame& frame : frames) {
-        s.mean += frame.counts[pixel] / n;
-        s.saturated = s.saturated || frame.counts[pixel] >= max_counts;
+        for (size_t i = 0; i < pixels; ++i) {
+            s.mean[i] += frame.counts[i] / n;
+            s.largest[i] = std::max(s.largest[i], frame.counts[i]);
+        }
     }
     for (const Frame& frame : frames) {
-        const double miss = frame.counts[pixel] - s.mean;
-        s.variance += miss * miss / std::max(1.0, n - 1);
+        for (size_t i = 0; i < pixels; ++i) {
+            const double miss = frame.counts[i] - s.mean[i];
+            s.variance[i] += miss * miss / std::max(1.0, n - 1);
+        }
     }
     return s;
 }
@@ -144,11 +151,10 @@ Scatter scatter(const std::vector<Frame>& frames, size_t pixel, uint32_t max_cou
 void add_frames(const std::vector<Frame>& frames, const std::vector<double>& dark,
                 uint32_t max_counts, SignalClasses* all) {
     if (frames.size() < 2) return;
+    const Scatter s = scatter(frames);
     for (size_t i = 0; i < dark.size(); ++i) {
-        const Scatter s = scatter(frames, i, max_counts);
-        if (!s.saturated) {
-            all->add(s.mean - dark[i], s.variance, static_cast<double>(frames.size() - 1));
-        }
+        if (s.largest[i] >= max_counts) continue;
+        all->add(s.mean[i] - dark[i], s.variance[i], static_cast<double>(frames.size() - 1));
     }
 }
 
@@ -177,15 +183,12 @@ NoiseModel fit_noise_model(const Journal& journal) {
     SignalClasses all(max_counts);
     std::map<uint32_t, std::vector<double>> darks;
     for (const JournalDark& dark : journal.darks) {
-        std::vector<double> mean(dark.frames.front().counts.size());
-        for (size_t i = 0; i < mean.size(); ++i) {
-            const Scatter s = scatter(dark.frames, i, max_counts);
-            mean[i] = s.mean;
-            if (dark.frames.size() > 1 && !s.saturated) {
-                all.add(0, s.variance, static_cast<double>(dark.frames.size() - 1));
-            }
+        Scatter s = scatter(dark.frames);
+        for (size_t i = 0; i < s.mean.size() && dark.frames.size() > 1; ++i) {
+            if (s.largest[i] >= max_counts) continue;
+            all.add(0, s.variance[i], static_cast<double>(dark.frames.size() - 1));
         }
-        darks.emplace(dark.block, std::move(mean));
+        darks.emplace(dark.block, std::move(s.mean));
     }
     std::map<std::pair<uint32_t, double>, const JournalPoint*> single;
     for (const JournalPoint& point : journal.points) {
