@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/bench_capture.h"
 #include "report/claim_figures.h"
 #include "report/claims.h"
 
@@ -79,7 +80,7 @@ std::vector<Claim> film_claims(const Study& study) {
             "at most two without. Light reflected at the film's two faces interferes: the fringes "
             "are as many as the film is optical half-waves thick.";
 
-        const double slack = 5 * std::sqrt(2 / std::max(1.0, film.film_dof));
+        const double slack = chi2_slack(film.measurement, film.capture.common, film.film_dof);
         std::string found;
         for (const StudyParameter& p : film.parameters) {
             found += fmt::format("; {} {:.6g}{}{}, made with {:g}", p.name, p.value,
@@ -94,7 +95,7 @@ std::vector<Claim> film_claims(const Study& study) {
                                                          : Verdict::does_not_hold;
         const size_t angles = film.measurement.angles().size();
         layer.why = fmt::format(
-            "Holds where the film's χ² is 1 within five times its scatter and the bare surface's "
+            "Holds where the film's χ² is 1 within four times its scatter and the bare surface's "
             "beyond 10. A fit point by point has two numbers a wavelength for {} readings, which "
             "a fringe pattern at {} angles contradicts.",
             2 * angles, angles);

@@ -330,7 +330,7 @@ StudyMetal copper() {
     metal.literature_set = "Cu-Two";
     metal.sample_set_citation = "One et al.";
     metal.literature_set_citation = "Two et al.";
-    metal.seed = 17;
+    metal.capture.seed = 17;
     metal.published = {flat_set("Cu-One", "calculated", 1, 2),
                        flat_set("Cu-Two", "measured", 1.5, 2.25)};
     metal.literature = metal.published[1];
@@ -451,7 +451,7 @@ TEST(StudyTables, ConstantsReadBackExactly) {
     EXPECT_EQ(table.rows[0].values, first);
     EXPECT_EQ(table.header_value("sample_set"), "Cu-One");
     EXPECT_EQ(table.header_value("seed"), "17");
-    EXPECT_NE(table.header_value("origin").find("simulated"), std::string::npos);
+    EXPECT_NE(table.header_value("origin").find("virtual bench"), std::string::npos);
     EXPECT_EQ(table.header_value("note"), "");
 }
 
