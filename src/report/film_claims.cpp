@@ -66,8 +66,14 @@ std::vector<Claim> film_claims(const Study& study) {
     const StudyMetal* aluminium = find_metal(study, "aluminium");
     if (study.film && aluminium) {
         const StudyFilm& film = *study.film;
-        // Five standard deviations of a reading apart, an extreme is no noise.
-        const double least = 5 * film.measurement.rows.front().sigma_psi_deg;
+        // Five standard deviations of the noisiest reading apart, an extreme is no noise.
+        double noisiest = 0;
+        for (const Measurement* measurement : {&film.measurement, &aluminium->measurement}) {
+            for (const MeasurementRow& row : measurement->rows) {
+                noisiest = std::max(noisiest, row.sigma_psi_deg);
+            }
+        }
+        const double least = 5 * noisiest;
         const int with = turning_points(psi_at(film.measurement, 60), least);
         const int without = turning_points(psi_at(aluminium->measurement, 60), least);
         swings.finding =
@@ -76,7 +82,8 @@ std::vector<Claim> film_claims(const Study& study) {
                          : with > without          ? Verdict::partly
                                                    : Verdict::does_not_hold;
         swings.why =
-            "Counted where Ψ turns by more than five standard deviations; holds from six with and "
+            "Counted where Ψ turns by more than five standard deviations of the noisiest reading; "
+            "holds from six with and "
             "at most two without. Light reflected at the film's two faces interferes: the fringes "
             "are as many as the film is optical half-waves thick.";
 

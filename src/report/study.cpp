@@ -48,7 +48,7 @@ class StudyRun {
   public:
     explicit StudyRun(const StudyOptions& options)
         : options_(options),
-          progress_("study", 2 + (options.spectral ? 7 : 11) * study_samples().size(),
+          progress_("study", 2 + (options.spectral ? 6 : 10) * study_samples().size(),
                     options.quiet) {}
 
     StudyResult run() {
@@ -102,6 +102,9 @@ class StudyRun {
         provenance.measurement = "measurement.csv";
         provenance.command = options_.command_line;
         provenance.version = DRUDE_VERSION;
+        provenance.warnings = {
+            "the rows were weighed by their noise and by sigma_common_deg of the measurement, the "
+            "error that the wavelengths of an angle share"};
         return provenance;
     }
 
@@ -167,44 +170,52 @@ class StudyRun {
         Material fitted = fitted_material(fit, measurement, sample.folder, from);
         Material published = material_from_set(literature);
 
+        metal.lobe = scan_lobe(site, made, fitted);
+        step();
+
+        render_finish(folder, fitted, published, Finish::rough, metal.lobe->fit);
+        render_finish(folder, fitted, published, Finish::smooth, metal.lobe->fit);
+        return metal;
+    }
+
+    StudyLobe scan_lobe(const CaptureSite& site, const Material& made, const Material& fitted) {
         Captured scan =
             capture_on_bench(site, made, lobe_recipe_, "lobe-scan.journal", calibration_);
-        write(folder + "lobe-scan.csv", scan.text);
-        StudyLobe& lobe = metal.lobe.emplace();
+        write(site.within + "/lobe-scan.csv", scan.text);
+        StudyLobe lobe;
+        lobe.true_lobe = made.lobe;
+        lobe.true_masking = made.masking;
+        lobe.true_beta = made.beta;
         lobe.capture = std::move(scan.about);
-        lobe.scan = parse_lobe_scan(scan.text, folder + "lobe-scan.csv");
+        lobe.scan = parse_lobe_scan(scan.text, site.within + "/lobe-scan.csv");
         lobe.fit = fit_lobes(lobe.scan, fitted);
         for (const FittedLobe& one : lobe.fit.lobes) {
             lobe.sigma.push_back(std::max(one.sigma_beta, scatter_of_beta(lobe.scan, fitted, one)));
         }
-        lobe.true_lobe = made.lobe;
-        lobe.true_masking = made.masking;
-        lobe.true_beta = made.beta;
-        step();
+        return lobe;
+    }
 
-        Material rough_fitted = fitted, rough_published = published;
-        // Of lobes that the scan does not tell apart the best stands for all.
-        set_fitted_lobe(lobe.fit, std::string(lobe_name(lobe.fit.lobes.front().lobe)),
-                        &rough_fitted);
-        rough_published.lobe = rough_fitted.lobe;
-        rough_published.masking = rough_fitted.masking;
-        rough_published.beta = rough_fitted.beta;
-        rough_published.check();
-        for (Material* material : {&fitted, &published}) {
-            material->lobe = parse_lobe(options_.lobe);
-            material->masking = parse_masking(options_.masking);
-            material->beta = options_.beta;
-            material->check();
+    // The surface of both: that of the options, or what the lobe scan says.
+    void render_finish(const std::string& folder, Material fitted, Material published,
+                       Finish finish, const LobeFitResult& scan) {
+        const bool rough = finish == Finish::rough;
+        if (rough) {
+            // Of lobes that the scan does not tell apart the best stands for all.
+            set_fitted_lobe(scan, std::string(lobe_name(scan.lobes.front().lobe)), &fitted);
+        } else {
+            fitted.lobe = parse_lobe(options_.lobe);
+            fitted.masking = parse_masking(options_.masking);
+            fitted.beta = options_.beta;
         }
-        write(folder + "fitted.json", format_material(fitted));
-        write(folder + "literature.json", format_material(published));
-        write(folder + "fitted-rough.json", format_material(rough_fitted));
-        write(folder + "literature-rough.json", format_material(rough_published));
-        step();
-
-        render_pair(folder, fitted, published, Finish::smooth);
-        render_pair(folder, rough_fitted, rough_published, Finish::rough);
-        return metal;
+        published.lobe = fitted.lobe;
+        published.masking = fitted.masking;
+        published.beta = fitted.beta;
+        fitted.check();
+        published.check();
+        const std::string end = rough ? "-rough.json" : ".json";
+        write(folder + "fitted" + end, format_material(fitted));
+        write(folder + "literature" + end, format_material(published));
+        render_pair(folder, fitted, published, finish);
     }
 
     // The same seed for both: equal paths, so that the difference is the metals' alone.

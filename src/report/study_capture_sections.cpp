@@ -193,7 +193,7 @@ void section_lobes(Page& page, const Study& study) {
         if (!m.lobe || m.lobe->scan.rows.empty()) continue;
         page.svg(lobe_plot(m, 550),
                  fmt::format("{}: points are the scan (s and p), lines the {} lobe that fits best, "
-                             "dashed the next that the scan excludes.",
+                             "dashed another that fits worse.",
                              m.name, lobe_name(m.lobe->fit.lobes.front().lobe)));
     }
     page.end_grid();
