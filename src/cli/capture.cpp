@@ -14,6 +14,7 @@
 #include "cli/command_list.h"
 #include "cli/live_plot.h"
 #include "device/sweep/bench_file.h"
+#include "device/sweep/correct_azimuths.h"
 #include "device/sweep/sweep.h"
 
 namespace drude {
@@ -92,6 +93,9 @@ int run_capture(const CaptureOptions& options, const OptionSet& set, const Commo
     const auto person = std::make_shared<TerminalOperator>(options.yes);
     Bench bench = open_bench(options.instrument, recipe.seed, person);
     what.calibration = options.calibration.empty() ? bench.calibration : options.calibration;
+    if (recipe.kind == RecipeKind::lobe && !what.calibration.empty()) {
+        correct_azimuths(read_calibration(what.calibration), &bench);
+    }
     LivePlot plot(common.quiet);
     std::optional<Progress> progress;
     size_t shown = 0;

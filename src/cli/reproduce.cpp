@@ -1,7 +1,8 @@
-// drude reproduce: the whole study, from simulated measurements to the report.
+// drude reproduce: the whole study, from captures on the virtual bench to the report.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -10,7 +11,9 @@
 #include "cli/json_output.h"
 #include "cli/report_output.h"
 #include "materials/lobe.h"
+#include "report/bench_capture.h"
 #include "report/study.h"
+#include "report/study_lobe.h"
 
 namespace drude {
 
@@ -20,10 +23,57 @@ namespace {
 std::vector<std::string> notes_of(const Study& study) {
     std::vector<std::string> notes = {
         "No hardware was measured: each sample is virtual, made of one published set of optical "
-        "constants, and its measurement is simulated.",
+        "constants and a roughness, and was captured on a simulated bench.",
         "Zn-Werner-DFT is a calculation (density functional theory), not a measurement."};
     notes.insert(notes.end(), study.info.notes.begin(), study.info.notes.end());
     return notes;
+}
+
+nlohmann::ordered_json difference_json(const Log10Difference& d) {
+    return {{"mean", d.mean}, {"p50", d.p50}, {"p99", d.p99}, {"max", d.max}};
+}
+
+// What the lobe scan found beside what the sample was made with; null without a scan.
+nlohmann::ordered_json lobe_json(const StudyMetal& metal) {
+    if (!metal.lobe) return nullptr;
+    const StudyLobe& lobe = *metal.lobe;
+    const FittedLobe& best = lobe.fit.lobes.front();
+    nlohmann::ordered_json tied = nlohmann::ordered_json::array();
+    for (const FittedLobe& one : lobe.fit.lobes) {
+        if (one.tied) tied.push_back(lobe_name(one.lobe));
+    }
+    nlohmann::ordered_json json = {{"lobe", lobe_name(best.lobe)},
+                                   {"beta", best.beta},
+                                   {"sigma_beta", lobe.sigma.front()},
+                                   {"tied", tied},
+                                   {"chi2_reduced", best.chi2 / std::max(1, lobe.fit.dof())},
+                                   {"true_lobe", lobe_name(lobe.true_lobe)},
+                                   {"true_beta", lobe.true_beta},
+                                   {"beta_of_true_lobe", own_lobe(lobe).beta},
+                                   {"sigma_of_true_lobe", own_sigma(lobe)},
+                                   {"verdict", lobe_verdict_text(lobe_verdict(lobe))}};
+    if (lobe.pair) {
+        json["mean_absolute_difference"] = lobe.pair->mean_absolute;
+        json["mean_delta_e"] = lobe.pair->mean_delta_e;
+        json["log10_difference"] = difference_json(lobe.pair->log10);
+    }
+    return json;
+}
+
+nlohmann::ordered_json capture_json(const StudyMetal& metal) {
+    const StudyCapture& capture = metal.capture;
+    nlohmann::ordered_json common = nlohmann::ordered_json::array();
+    for (const CommonError& error : capture.common) {
+        common.push_back({{"angle_deg", error.angle_deg},
+                          {"sigma_psi_deg", error.sigma_psi_deg},
+                          {"sigma_delta_deg", error.sigma_delta_deg}});
+    }
+    return {{"rows", metal.measurement.rows.size()},
+            {"integration_s", capture.integration_s},
+            {"frames", capture.frames},
+            {"bench_seconds", capture.bench_seconds},
+            {"retries", capture.retries},
+            {"common_errors", common}};
 }
 
 nlohmann::ordered_json to_json(const StudyOptions& options, const ReportResult& report) {
@@ -41,21 +91,55 @@ nlohmann::ordered_json to_json(const StudyOptions& options, const ReportResult& 
     json["materials"] = nlohmann::ordered_json::array();
     for (const StudyMetal& metal : report.study.metals) {
         const PairStatistics& pair = *metal.pair;
-        const Log10Difference& d = pair.log10;
         json["materials"].push_back(
             {{"name", metal.name},
              {"sample_set", metal.sample_set},
              {"literature_set", metal.literature_set},
+             {"capture", capture_json(metal)},
              {"chi2_reduced", metal.reduced_chi2},
+             {"chi2_slack", chi2_slack(metal.measurement, metal.capture.common, metal.dof)},
+             {"chi2_noise_alone", metal.noise_chi2},
+             {"chi2_by_common_error",
+              chi2_by_common_error(metal.measurement, metal.capture.common)},
              {"dof", metal.dof},
              {"rms_dn", metal.rms_dn},
              {"rms_dk", metal.rms_dk},
              {"mean_absolute_difference", pair.mean_absolute},
              {"mean_delta_e", pair.mean_delta_e},
-             {"log10_difference",
-              {{"mean", d.mean}, {"p50", d.p50}, {"p99", d.p99}, {"max", d.max}}}});
+             {"log10_difference", difference_json(pair.log10)},
+             {"rough", lobe_json(metal)}});
     }
     return json;
+}
+
+// Why a chi-square with the noise alone would not be 1, with numbers.
+void print_common_errors(const Study& study) {
+    for (const StudyMetal& metal : study.metals) {
+        double psi = 0, delta = 0;
+        for (const CommonError& error : metal.capture.common) {
+            psi = std::max(psi, error.sigma_psi_deg);
+            delta = std::max(delta, error.sigma_delta_deg);
+        }
+        fmt::print(
+            "{}: chi2/dof 1 +- {:.2f} expected, with the common error of mounts and calibration "
+            "(up to {:.2g} degrees in Psi, {:.2g} in Delta); with the noise alone {:.3g}, {:.3g} "
+            "expected\n",
+            metal.name, chi2_slack(metal.measurement, metal.capture.common, metal.dof), psi, delta,
+            metal.noise_chi2, chi2_by_common_error(metal.measurement, metal.capture.common));
+    }
+}
+
+void print_lobes(const Study& study) {
+    for (const StudyMetal& metal : study.metals) {
+        if (!metal.lobe) continue;
+        const StudyLobe& lobe = *metal.lobe;
+        const FittedLobe& best = lobe.fit.lobes.front();
+        const std::string ties = tied_with(lobe);
+        fmt::print("{}: lobe scan {} beta {:.5f} +- {:.1g}{}; made with {} {:g}: {}\n", metal.name,
+                   lobe_name(best.lobe), best.beta, lobe.sigma.front(),
+                   ties.empty() ? "" : " (not told from " + ties + ")", lobe_name(lobe.true_lobe),
+                   lobe.true_beta, lobe_verdict_text(lobe_verdict(lobe)));
+    }
 }
 
 void print(const StudyOptions& options, const ReportResult& report) {
@@ -66,6 +150,8 @@ void print(const StudyOptions& options, const ReportResult& report) {
                    metal.sample_set, metal.literature_set, metal.reduced_chi2, metal.rms_dn,
                    metal.rms_dk, metal.pair->log10.mean, metal.pair->mean_delta_e);
     }
+    print_common_errors(report.study);
+    print_lobes(report.study);
     if (const auto& film = report.study.film) {
         fmt::print("{}: chi2/dof {:.3f} with its film", film->name, film->film_chi2);
         for (const StudyParameter& p : film->parameters) {
@@ -84,12 +170,16 @@ void print(const StudyOptions& options, const ReportResult& report) {
 Command reproduce_command() {
     Command command;
     command.name = "reproduce";
-    command.summary = "Run the whole study: five metals measured, fitted, rendered, compared";
+    command.summary = "Run the whole study: five metals captured, fitted, rendered, compared";
     command.description =
         "Copper, silver, gold, aluminium and a zinc coating, each as a virtual sample made of one "
-        "published set of optical constants: measured by a simulated ellipsometer, fitted, and "
-        "rendered as a half-sphere twice, with the fitted constants and with another published "
-        "set; and anodised aluminium, measured and fitted as a bare metal and with its film. "
+        "published set of optical constants with a lobe and a beta: Psi and Delta and a lobe scan "
+        "are captured on the virtual bench, with its ordinary faults and its calibration, as "
+        "`drude capture` would; n and k, lobe and beta are fitted; and a half-sphere is rendered "
+        "with the fitted constants and with another published set, nearly polished as in the "
+        "paper and with the fitted lobe. And anodised aluminium, captured and fitted as a bare "
+        "metal and with its film. Bench files, recipes and journals of the raw frames stay in the "
+        "folder. "
         "Writes EXRs, PNGs, tables, figures 5 to 9 of the paper and one self-contained page "
         "(index.html) to the folder -o; `drude report DIR` makes the page again without "
         "rendering. Unless --spectral puts 10 nm layers of S0 to S3 into every picture, a quarter "
@@ -97,7 +187,8 @@ Command reproduce_command() {
         "The environment is a courtyard that the program makes itself; --environment FILE takes a "
         "lat-long picture instead, such as the Uffizi Gallery light probe (courtesy of Paul "
         "Debevec; bring your own copy), which makes the study that of Berger, Weidlich, Wilkie & "
-        "Magnor 2012. --beta and --lobe change the roughness, which their renderer clamped to a "
+        "Magnor 2012. --beta and --lobe change the roughness of the polished pairs, which their "
+        "renderer clamped to a "
         "Blinn-Phong half-height angle of 0.011774 rad.";
     command.example =
         "drude reproduce -o study\n"
@@ -111,7 +202,7 @@ Command reproduce_command() {
         set.option("--beta", options->beta, "roughness in rad (default 0.011774; 0: a mirror)");
         set.option("--spp", options->samples_per_pixel, "samples a pixel (default 64)");
         set.option("--resolution", options->resolution, "pixels a side (default 512)");
-        set.option("--seed", options->seed, "of noise and samples (default 1)");
+        set.option("--seed", options->seed, "of the benches and samples (default 1)");
         set.flag("--spectral", options->spectral, "10 nm layers of S0 to S3 in every EXR");
         return [options, &common] {
             if (options->folder.empty()) {

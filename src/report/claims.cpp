@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "report/claim_figures.h"
+#include "report/study_lobe.h"
 
 namespace drude {
 
@@ -161,9 +162,21 @@ Claim roughness_is_fitted(const Study& study) {
         "itself, with all four distributions.",
         change);
     c.verdict = change < 1e-9 ? Verdict::does_not_hold : Verdict::holds;
+    std::vector<std::string> scans;
+    for (const StudyMetal& metal : study.metals) {
+        if (!metal.lobe) continue;
+        const StudyLobe& lobe = *metal.lobe;
+        scans.push_back(fmt::format("{} {:.5f} ± {:.1g} ({} lobe, made with {:g}: {})", metal.name,
+                                    own_lobe(lobe).beta, own_sigma(lobe), lobe_name(lobe.true_lobe),
+                                    lobe.true_beta, lobe_verdict_text(lobe_verdict(lobe))));
+    }
+    if (!scans.empty()) {
+        c.finding += fmt::format(" Lobe scans yield it: {}.", fmt::join(scans, "; "));
+    }
     c.why =
         "Holds if the ratio depends on β beyond rounding (1e-9). D and G stand in r_p and r_s "
-        "alike and cancel: a fit returns the β it was started with.";
+        "alike and cancel: a fit returns the β it was started with. What a detector sees beside "
+        "the mirror direction does hold it.";
     return c;
 }
 

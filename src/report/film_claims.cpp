@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/bench_capture.h"
 #include "report/claim_figures.h"
 #include "report/claims.h"
 
@@ -65,8 +66,14 @@ std::vector<Claim> film_claims(const Study& study) {
     const StudyMetal* aluminium = find_metal(study, "aluminium");
     if (study.film && aluminium) {
         const StudyFilm& film = *study.film;
-        // Five standard deviations of a reading apart, an extreme is no noise.
-        const double least = 5 * film.measurement.rows.front().sigma_psi_deg;
+        // Five standard deviations of the noisiest reading apart, an extreme is no noise.
+        double noisiest = 0;
+        for (const Measurement* measurement : {&film.measurement, &aluminium->measurement}) {
+            for (const MeasurementRow& row : measurement->rows) {
+                noisiest = std::max(noisiest, row.sigma_psi_deg);
+            }
+        }
+        const double least = 5 * noisiest;
         const int with = turning_points(psi_at(film.measurement, 60), least);
         const int without = turning_points(psi_at(aluminium->measurement, 60), least);
         swings.finding =
@@ -75,11 +82,12 @@ std::vector<Claim> film_claims(const Study& study) {
                          : with > without          ? Verdict::partly
                                                    : Verdict::does_not_hold;
         swings.why =
-            "Counted where Ψ turns by more than five standard deviations; holds from six with and "
+            "Counted where Ψ turns by more than five standard deviations of the noisiest reading; "
+            "holds from six with and "
             "at most two without. Light reflected at the film's two faces interferes: the fringes "
             "are as many as the film is optical half-waves thick.";
 
-        const double slack = 5 * std::sqrt(2 / std::max(1.0, film.film_dof));
+        const double slack = chi2_slack(film.measurement, film.capture.common, film.film_dof);
         std::string found;
         for (const StudyParameter& p : film.parameters) {
             found += fmt::format("; {} {:.6g}{}{}, made with {:g}", p.name, p.value,
@@ -94,7 +102,7 @@ std::vector<Claim> film_claims(const Study& study) {
                                                          : Verdict::does_not_hold;
         const size_t angles = film.measurement.angles().size();
         layer.why = fmt::format(
-            "Holds where the film's χ² is 1 within five times its scatter and the bare surface's "
+            "Holds where the film's χ² is 1 within four times its scatter and the bare surface's "
             "beyond 10. A fit point by point has two numbers a wavelength for {} readings, which "
             "a fringe pattern at {} angles contradicts.",
             2 * angles, angles);

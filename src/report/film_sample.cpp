@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/files.h"
 #include "base/sha256.h"
-#include "device/virtual/ellipsometer_simulation.h"
 #include "fitter/fit.h"
 #include "fitter/fitted_material.h"
+#include "fitter/row_residuals.h"
 #include "materials/effective_medium.h"
 
 namespace drude {
@@ -17,7 +19,8 @@ constexpr double thickness_nm = 3000, porosity = 0.1;
 constexpr const char* substrate_set = "Al-Rakic";
 constexpr const char* film_set = "Al2O3-Malitson-o";
 
-Material anodised(const std::vector<double>& wavelengths_nm) {
+// Over all that the bench sees, every nanometre.
+Material anodised(const VirtualBenchSettings& bench) {
     Material material = material_from_set(published_set(substrate_set));
     material.name = "anodised aluminium";
     FilmLayer layer;
@@ -27,7 +30,7 @@ Material anodised(const std::vector<double>& wavelengths_nm) {
     layer.constants.kind = "calculated";
     layer.constants.citation =
         fmt::format("Bruggeman mixture of {} with {} % pores", film_set, 100 * porosity);
-    for (const double nm : wavelengths_nm) {
+    for (double nm = std::floor(bench.first_nm); nm <= std::ceil(bench.last_nm); ++nm) {
         const Index dense = published_set(film_set).at(nm);
         const auto index =
             bruggeman(ComplexIndex<double>{dense.n, dense.k}, ComplexIndex<double>{1, 0}, porosity);
@@ -41,36 +44,41 @@ Material anodised(const std::vector<double>& wavelengths_nm) {
 
 }  // namespace
 
-StudyFilm study_film(const std::string& folder, uint64_t seed, const Provenance& provenance,
-                     int threads, std::vector<std::string>* files) {
+StudyFilm study_film(CaptureSite site, const Calibration& calibration, const Provenance& provenance,
+                     int threads) {
+    // A pixel a bin: where fringes are 17 nm apart, Delta turns too fast for a mean over a
+    // nanometre to be its value in the middle.
+    site.settings.pixels =
+        1 + static_cast<int>(std::lround(site.settings.last_nm - site.settings.first_nm));
     StudyFilm film;
     film.name = "Anodised aluminium";
-    film.folder = "anodised-aluminium";
+    film.folder = site.within;
     film.substrate_set = substrate_set;
     film.film_set = film_set;
-    film.seed = seed;
-    make_folder(folder + "/" + film.folder);
     const auto write = [&](const std::string& file, const std::string& text) {
         const std::string name = film.folder + "/" + file;
-        write_file(folder + "/" + name, text);
-        files->push_back(name);
+        write_file(site.folder + "/" + name, text);
+        site.files->push_back(name);
     };
 
-    SimulationSetup setup;
-    setup.angles_deg = {45, 50, 60, 70, 75, 80};
-    for (int nm = 380; nm <= 780; ++nm) setup.wavelengths_nm.push_back(nm);
-    setup.seed = seed;
-    const Material sample = anodised(setup.wavelengths_nm);
-    const Measurement measurement = simulate_ellipsometer(sample, setup);
-    const std::string text = format_measurement(measurement);
-    write("measurement.csv", text);
+    Recipe recipe = default_recipe(RecipeKind::psi_delta);
+    recipe.step_nm = 1;
+    const Material sample = anodised(site.settings);
     write("sample.json", format_material(sample));
+    write("recipe.json", format_recipe(recipe));
+    write("bench.json", virtual_bench_file(site, "sample.json", "../bench/calibration.json"));
+    Captured captured = capture_on_bench(site, sample, recipe, "measurement.journal", calibration);
+    const std::string& text = captured.text;
+    write("measurement.csv", text);
+    film.capture = std::move(captured.about);
+    const Measurement measurement = parse_measurement(text, "measurement.csv");
+    const Measurement weighed = with_common_error(measurement, film.capture.common);
     Provenance from = provenance;
     from.measurement_sha256 = sha256(text);
 
     FitOptions options;
     options.threads = threads;
-    const FitResult bare = fit_measurement(measurement, options);
+    const FitResult bare = fit_measurement(weighed, options);
     film.bare_chi2 = bare.chi2_reduced();
     film.bare_dof = bare.dof();
     write("bare.json", format_material(fitted_material(bare, measurement, "bare", from)));
@@ -78,9 +86,12 @@ StudyFilm study_film(const std::string& folder, uint64_t seed, const Provenance&
     options.model = "film";
     options.film.substrate = published_set(substrate_set);
     options.film.material = published_set(film_set);
-    const FitResult fit = fit_measurement(measurement, options);
+    const FitResult fit = fit_measurement(weighed, options);
     film.film_chi2 = fit.chi2_reduced();
     film.film_dof = fit.dof();
+    for (const RowResidual& row : row_residuals(fit, measurement, options)) {
+        if (std::isfinite(row.squared())) film.noise_chi2 += row.squared() / fit.dof();
+    }
     for (const FittedParameter& p : fit.common) {
         const double truth = p.name == "thickness" ? thickness_nm : porosity;
         film.parameters.push_back({p.name, p.unit, p.value, p.sigma, truth});

@@ -52,7 +52,7 @@ FigurePanel angles_panel(const std::string& name, const Measurement& measurement
     Plot plot;
     plot.title = fmt::format("{}, Ψ and Δ at {:g}°", name, angle_deg);
     plot.description = fmt::format(
-        "Psi and Delta of the simulated measurement of {} against wavelength at {:g} degrees of "
+        "Captured Psi and Delta of {} against wavelength at {:g} degrees of "
         "incidence, with the curves of the fitted model.",
         name, angle_deg);
     plot.id = id + "-angles";
@@ -81,10 +81,9 @@ FigurePanel angles_panel(const std::string& name, const Measurement& measurement
         plot.series.push_back(std::move(line));
         plot.series.push_back(std::move(points));
     }
-    return panel(svg_plot(plot),
-                 fmt::format("Points: simulated measurement at {:g}° of incidence. Lines: the "
-                             "fitted model.",
-                             angle_deg));
+    return panel(svg_plot(plot), fmt::format("Points: captured at {:g}° of incidence. Lines: the "
+                                             "fitted model.",
+                                             angle_deg));
 }
 
 FigurePanel ratio_panel(const std::string& name, const Measurement& measurement,
@@ -93,7 +92,7 @@ FigurePanel ratio_panel(const std::string& name, const Measurement& measurement,
     SurfacePlot plot;
     plot.title = fmt::format("{}, reflectance ratio", name);
     plot.description = fmt::format(
-        "Squared reflectance ratio of the simulated measurement of {} over wavelength and angle of "
+        "Squared reflectance ratio captured of {} over wavelength and angle of "
         "incidence, as points above the grid that {} predicts.",
         name, literature.name);
     plot.id = id + "-ratio";
@@ -139,7 +138,7 @@ FigurePanel constants_panel(const StudyMetal& metal, const std::string& id) {
     Plot plot;
     plot.title = fmt::format("{}, n and k", metal.name);
     plot.description = fmt::format(
-        "Refractive index n and extinction coefficient k of {}: fitted to the simulated "
+        "Refractive index n and extinction coefficient k of {}: fitted to the captured "
         "measurement, and those of {}.",
         metal.name, metal.literature_set);
     plot.id = id + "-constants";

@@ -36,7 +36,7 @@ std::string map_text(ColourMap map) {
 
 PictureData::PictureData(const PictureBudget& budget) : budget_(budget) {}
 
-void PictureData::Grid::add(Layers layers) {
+void PictureData::Grid::add(Layers layers, bool is_blurred) {
     own.resize(pixels(), 0);
     if (!pictures.empty()) {
         for (size_t row = 0; row < 4; ++row) {
@@ -47,6 +47,7 @@ void PictureData::Grid::add(Layers layers) {
         }
     }
     pictures.push_back(std::move(layers));
+    blurred.push_back(is_blurred);
 }
 
 std::vector<size_t> PictureData::Grid::chosen(char kind, int step) const {
@@ -76,9 +77,19 @@ size_t PictureData::Grid::bytes(int step, int first_row) const {
            (rows * chosen(1, step).size() + kept(pictures.front()) * chosen(0, step).size());
 }
 
-int PictureData::Grid::fitting_step(size_t budget, int first_row) const {
+int PictureData::Grid::fitting_step(size_t budget, int first_row, int unit) const {
+    int step = unit;
+    while (bytes(step, first_row) > budget && step < std::max(width, height)) step += unit;
+    return step;
+}
+
+int PictureData::Grid::blurred_step(size_t budget) const {
+    const auto count = static_cast<size_t>(std::count(blurred.begin(), blurred.end(), 1));
+    if (count == 0) return 1;
+    const size_t sharp =
+        2 * planes * (chosen(0, 1).size() + (pictures.size() - count) * chosen(1, 1).size());
     int step = 1;
-    while (bytes(step, first_row) > budget && step < std::max(width, height)) ++step;
+    while (sharp + 2 * planes * count * chosen(1, step).size() > budget && step < 8) ++step;
     return step;
 }
 
@@ -148,11 +159,11 @@ void PictureData::add_spectra(const StudyPair& pair) {
                 "the spectral layers of the study's pictures differ; render all of them "
                 "with one resolution and the same layers");
         }
-        spectral_.add(std::move(layers));
+        spectral_.add(std::move(layers), false);
     }
 }
 
-void PictureData::add(const StudyMetal& metal, const StudyPair& pair) {
+void PictureData::add(const std::string& id, const StudyPair& pair, bool blurred) {
     const Image& first = pair.fitted;
     if (colour_.pictures.empty()) {
         exr_width_ = first.width;
@@ -166,7 +177,7 @@ void PictureData::add(const StudyMetal& metal, const StudyPair& pair) {
         user_error(
             "{}: its pictures have {} x {} pixels, those before it {} x {}; render all with "
             "one resolution",
-            metal.folder, first.width, first.height, exr_width_, exr_height_);
+            id, first.width, first.height, exr_width_, exr_height_);
     }
     for (const Image* image : {&pair.fitted, &pair.literature}) {
         std::vector<std::array<size_t, 4>> planes(3);
@@ -175,38 +186,44 @@ void PictureData::add(const StudyMetal& metal, const StudyPair& pair) {
                 planes[c][row] = channel_index(*image, fmt::format("S{}.{}", row, "RGB"[c]));
             }
         }
-        colour_.add(layers_of(*image, planes, step_));
+        colour_.add(layers_of(*image, planes, step_), blurred);
     }
     const bool spectra = pair.fitted_spectral.width > 0;
     if (spectra != !spectral_.pictures.empty() && colour_.pictures.size() > 2) {
-        user_error("{}: spectral layers are in some of the study's pictures only", metal.folder);
+        user_error("{}: spectral layers are in some of the study's pictures only", id);
     }
     if (spectra) add_spectra(pair);
-    metals_ += (metals_.empty() ? "" : ",") + fmt::format("\"{}\"", identifier(metal.folder));
+    ids_ += (ids_.empty() ? "" : ",") + fmt::format("\"{}\"", id);
 }
 
 std::string PictureData::json() const {
     if (colour_.pictures.empty()) return "";
-    const auto group = [](const Grid& grid, int first, int rest) {
-        std::string text = fmt::format(
-            "\"width\":{},\"height\":{},\"planes\":{},\"first\":{},\"rest\":{},\"own\":\"{}\",\n"
-            "\"shared\":{},\n\"pictures\":[\n",
-            grid.width, grid.height, grid.planes, first, rest,
-            pack_bytes({grid.own.data(), grid.own.size()}), grid.packed(0, 0, first, rest));
+    // What all pictures share is as fine as the finest of them.
+    const auto group = [](const Grid& grid, int first, int blurred, int rest) {
+        std::string steps, pictures;
         for (size_t i = 0; i < grid.pictures.size(); ++i) {
-            text += grid.packed(i, 1, first, rest) + (i + 1 < grid.pictures.size() ? ",\n" : "\n");
+            const int step = grid.blurred[i] ? blurred : first;
+            steps += (i ? "," : "") + fmt::format("{}", step);
+            pictures += (i ? ",\n" : "") + grid.packed(i, 1, step, rest);
         }
-        return text + "]";
+        return fmt::format(
+            "\"width\":{},\"height\":{},\"planes\":{},\"first\":{},\"firsts\":[{}],\"rest\":{},"
+            "\"own\":\"{}\",\n\"shared\":{},\n\"pictures\":[\n{}\n]",
+            grid.width, grid.height, grid.planes, first, steps, rest,
+            pack_bytes({grid.own.data(), grid.own.size()}), grid.packed(0, 0, first, rest),
+            pictures);
     };
-    std::string text =
-        fmt::format("{{\"step\":{},\"metals\":[{}],\n\"colour\":{{{}}}", step_, metals_,
-                    group(colour_, 1, colour_.fitting_step(budget_.stokes_bytes, 1)));
+    const int blurred = colour_.blurred_step(budget_.colour_bytes);
+    std::string text = fmt::format(
+        "{{\"step\":{},\"pairs\":[{}],\n\"colour\":{{{}}}", step_, ids_,
+        group(colour_, 1, blurred, colour_.fitting_step(budget_.stokes_bytes, 1, blurred)));
     if (!spectral_.pictures.empty()) {
         std::string nm;
         for (const double w : wavelengths_) nm += (nm.empty() ? "" : ",") + format_double(w);
-        const int step = spectral_.fitting_step(budget_.spectral_bytes, 0);
+        const int step = spectral_.fitting_step(budget_.spectral_bytes, 0, 1);
         text += fmt::format(",\n\"spectral\":{{\"smaller\":{},\"step\":{},\"nm\":[{}],{}}}",
-                            spectral_is_smaller_, spectral_step_, nm, group(spectral_, step, step));
+                            spectral_is_smaller_, spectral_step_, nm,
+                            group(spectral_, step, step, step));
     }
     const ColourBar log_bar = log_difference_bar();
     return text + fmt::format(",\n\"log\":[{},{}],\"sequential\":\"{}\",\"diverging\":\"{}\"}}\n",
@@ -227,14 +244,17 @@ std::string PictureData::description() const {
                                        : step == 3 ? "rd"
                                                    : "th");
     };
-    const int rest = colour_.fitting_step(budget_.stokes_bytes, 1);
+    const int blurred = colour_.blurred_step(budget_.colour_bytes);
+    const int rest = colour_.fitting_step(budget_.stokes_bytes, 1, blurred);
     std::string text = fmt::format(
         "Embedded are the numbers of the EXR files beside this page, rounded to half floats (a "
-        "relative error of at most 0.05 %), single pixels and never averages: S0 in R, G, B of {}, "
-        "S1 to S3 of {}",
-        every(step_), every(step_ * rest));
+        "relative error of at most 0.05 %), single pixels and never averages: S0 in R, G, B of "
+        "{}{}, S1 to S3 of {}",
+        every(step_),
+        blurred > 1 ? fmt::format(" ({} of the rough surfaces)", every(step_ * blurred)) : "",
+        every(step_ * rest));
     if (spectral_.pictures.empty()) return text + "; no spectral layers.";
-    const int step = spectral_.fitting_step(budget_.spectral_bytes, 0) * spectral_step_;
+    const int step = spectral_.fitting_step(budget_.spectral_bytes, 0, 1) * spectral_step_;
     return text + fmt::format(", and S0 to S3 at {} wavelengths of {}{}.", wavelengths_.size(),
                               every(step),
                               spectral_is_smaller_

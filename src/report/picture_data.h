@@ -4,7 +4,8 @@
 // All pictures of a study show one scene with one seed, so what lies beside the metal is equal to
 // the bit in all of them: those pixels are embedded once, each picture brings its own of the rest.
 // Values are an EXR's own, rounded to half floats and never averaged; where a layer would be too
-// large it keeps every second (third, ...) pixel of every second row.
+// large it keeps every second (third, ...) pixel of every second row: S0 of the blurred pictures
+// before anything of the sharp ones.
 #pragma once
 
 #include <array>
@@ -21,15 +22,16 @@ struct PictureBudget {
     int side = 512;                 // pixels shown along the longer side
     size_t stokes_bytes = 3500000;  // S1..S3 of R, G, B
     size_t spectral_bytes = 4000000;
+    size_t colour_bytes = 12000000;  // S0 of R, G, B; sharp pictures are never thinned out
 };
 
 class PictureData {
   public:
     explicit PictureData(const PictureBudget& budget = {});
 
-    // In the page's order. Throws Error (user) where the size, or the spectral layers, differ from
-    // those of the pairs before it.
-    void add(const StudyMetal& metal, const StudyPair& pair);
+    // In the page's order; `id` (of identifier()) is that of its figure there. Throws Error (user)
+    // where the size, or the spectral layers, differ from those of the pairs before it.
+    void add(const std::string& id, const StudyPair& pair, bool blurred = false);
 
     // The JSON document; "" where nothing was added. ASCII, without '<', so that it may stand
     // within a script element.
@@ -47,15 +49,18 @@ class PictureData {
         int width = 0, height = 0;
         size_t planes = 0;
         std::vector<Layers> pictures;
-        std::vector<char> own;  // 1 where the pictures differ
+        std::vector<char> blurred;  // 1: of such a pair; one for each picture
+        std::vector<char> own;      // 1 where the pictures differ
 
         size_t pixels() const { return static_cast<size_t>(width) * height; }
-        void add(Layers layers);
+        void add(Layers layers, bool is_blurred);
         // Pixels of the shared (own = 0) or the own kind, in reading order, every step-th only.
         std::vector<size_t> chosen(char kind, int step) const;
         size_t bytes(int step, int first_row) const;
-        // The least step at which rows from `first_row` fit.
-        int fitting_step(size_t budget, int first_row) const;
+        // The least step, a multiple of `unit`, at which rows from `first_row` fit.
+        int fitting_step(size_t budget, int first_row, int unit) const;
+        // The least step of the blurred pictures' S0 at which that of all fits, the others' whole.
+        int blurred_step(size_t budget) const;
         // `first` is the step of S0, `rest` that of the others.
         std::string packed(size_t picture, char kind, int first, int rest) const;
     };
@@ -70,7 +75,7 @@ class PictureData {
     int spectral_step_ = 1;  // pixels of the EXR between two of the spectral grid
     bool spectral_is_smaller_ = false;
     std::vector<double> wavelengths_;  // of the spectral layers, nm
-    std::string metals_;               // their ids, quoted, with commas between
+    std::string ids_;                  // of the pairs, quoted, with commas between
 };
 
 }  // namespace drude

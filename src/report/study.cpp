@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
@@ -9,49 +10,57 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "base/sha256.h"
-#include "device/virtual/ellipsometer_simulation.h"
+#include "device/virtual/virtual_bench.h"
 #include "fitter/fit.h"
 #include "fitter/fitted_material.h"
+#include "fitter/lobe_scatter.h"
+#include "fitter/row_residuals.h"
 #include "materials/embedded_tables.h"
+#include "materials/scalar.h"
 #include "render/environment_choice.h"
 #include "render/render.h"
+#include "report/bench_capture.h"
 #include "report/film_sample.h"
 #include "report/study_folder.h"
+#include "report/study_samples.h"
 
 namespace drude {
 
 namespace {
 
-struct Sample {
-    const char* name;
-    const char* folder;
-    const char* set;         // what the virtual sample is made of
-    const char* literature;  // what it is compared with
-};
+// Positions of the detector in a lobe scan: as far as the widest of the samples' lobes reaches.
+std::vector<double> scan_offsets() {
+    std::vector<double> offsets;
+    for (int offset = -40; offset <= 40; offset += 2) offsets.push_back(offset);
+    return offsets;
+}
 
-// Two independent publications for each metal: one stands for the sample on the table, the other
-// for the handbook.
-constexpr Sample samples[] = {
-    {"Copper", "copper", "Cu-McPeak", "Cu-Hagemann"},
-    {"Silver", "silver", "Ag-McPeak", "Ag-Ferrera-298K"},
-    {"Gold", "gold", "Au-McPeak", "Au-Johnson"},
-    {"Aluminium", "aluminium", "Al-McPeak", "Al-Rakic"},
-    {"Zinc coating", "zinc", "Zn-Werner-DFT", "Zn-Werner"},
-};
+Recipe lobe_recipe(const VirtualBenchSettings& settings) {
+    Recipe recipe = default_recipe(RecipeKind::lobe);
+    recipe.offsets_deg = scan_offsets();
+    recipe.detector_half_angle_deg = settings.detector_half_angle_deg;
+    recipe.detector_solid_angle_sr =
+        4 * pi * std::pow(std::sin(settings.detector_half_angle_deg * pi / 360), 2);
+    return recipe;
+}
 
 class StudyRun {
   public:
     explicit StudyRun(const StudyOptions& options)
-        : options_(options), progress_("study", 5 * std::size(samples) + 1, options.quiet) {}
+        : options_(options),
+          progress_("study", 2 + (options.spectral ? 6 : 10) * study_samples().size(),
+                    options.quiet) {}
 
     StudyResult run() {
         const auto start = std::chrono::steady_clock::now();
         prepare_scene();
+        prepare_bench();
         Study& study = result_.study;
-        for (const Sample& sample : samples) study.metals.push_back(measure_and_render(sample));
-        // Noise of its own, as every metal has.
-        study.film = study_film(options_.folder, options_.seed + std::size(samples), provenance(),
-                                options_.threads, &result_.files);
+        for (const StudySample& sample : study_samples()) {
+            study.metals.push_back(measure_and_render(sample));
+        }
+        const CaptureSite site = site_of("anodised-aluminium", study_samples().size());
+        study.film = study_film(site, calibration_, provenance(), options_.threads);
         step();
         study.info.seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -93,63 +102,134 @@ class StudyRun {
         provenance.measurement = "measurement.csv";
         provenance.command = options_.command_line;
         provenance.version = DRUDE_VERSION;
+        provenance.warnings = {
+            "the rows were weighed by their noise and by sigma_common_deg of the measurement, the "
+            "error that the wavelengths of an angle share"};
         return provenance;
     }
 
-    StudyMetal measure_and_render(const Sample& sample) {
+    // One bench for all samples, calibrated once; noise and jitter of its own for each of them, so
+    // that their fits are independent tests.
+    CaptureSite site_of(const std::string& within, size_t number) {
+        CaptureSite site{options_.folder, within, "virtual " + within,
+                         ordinary_bench_settings(options_.seed + number), &result_.files};
+        make_folder(options_.folder + "/" + within);
+        return site;
+    }
+
+    void prepare_bench() {
+        const CaptureSite site = site_of("bench", study_samples().size() + 1);
+        result_.study.info.bench = format_virtual_bench_settings(site.settings);
+        BenchCalibration calibrated = calibrate_bench(site);
+        calibration_ = std::move(calibrated.calibration);
+        for (const std::string& warning : calibrated.warnings) note("calibration: " + warning);
+        lobe_recipe_ = lobe_recipe(site.settings);
+        write("bench/psi-delta.json", format_recipe(sweep_recipe_));
+        write("bench/lobe.json", format_recipe(lobe_recipe_));
+        step();
+    }
+
+    StudyMetal measure_and_render(const StudySample& sample) {
         StudyMetal metal;
         metal.name = sample.name;
         metal.folder = sample.folder;
         metal.sample_set = sample.set;
         metal.literature_set = sample.literature;
-        // Noise of its own for every metal, so that their fits are independent tests.
-        metal.seed = options_.seed + static_cast<uint64_t>(&sample - samples);
         const OpticalConstants& truth = published_set(sample.set);
         const OpticalConstants& literature = published_set(sample.literature);
         for (const OpticalConstants* set : {&truth, &literature}) {
             const std::string warning = set->range_warning(spectrum_first_nm, spectrum_last_nm);
             if (!warning.empty()) note(warning);
         }
-
-        // Measured at the angles of the original study, with its instrument's inaccuracy.
-        SimulationSetup setup;
-        setup.angles_deg = {45, 50, 60, 70, 75, 80};
-        for (int nm = 380; nm <= 780; nm += 5) setup.wavelengths_nm.push_back(nm);
-        setup.seed = metal.seed;
-        const Measurement measurement = simulate_ellipsometer(material_from_set(truth), setup);
+        const CaptureSite site =
+            site_of(sample.folder, static_cast<size_t>(&sample - study_samples().data()));
+        const Material made = made_of(sample);
         const std::string folder = metal.folder + "/";
-        make_folder(options_.folder + "/" + metal.folder);
-        const std::string measurement_text = format_measurement(measurement);
-        write(folder + "measurement.csv", measurement_text);
+        write(folder + "sample.json", format_material(made));
+        write(folder + "bench.json",
+              virtual_bench_file(site, "sample.json", "../bench/calibration.json"));
+
+        Captured sweep =
+            capture_on_bench(site, made, sweep_recipe_, "measurement.journal", calibration_);
+        write(folder + "measurement.csv", sweep.text);
+        metal.capture = std::move(sweep.about);
+        const Measurement measurement = parse_measurement(sweep.text, folder + "measurement.csv");
+        step();
 
         FitOptions fit_options;
         fit_options.threads = options_.threads;
-        const FitResult fit = fit_measurement(measurement, fit_options);
+        const Measurement weighed = with_common_error(measurement, metal.capture.common);
+        const FitResult fit = fit_measurement(weighed, fit_options);
         metal.reduced_chi2 = fit.chi2_reduced();
         metal.dof = fit.dof();
+        for (const RowResidual& row : row_residuals(fit, measurement, fit_options)) {
+            if (std::isfinite(row.squared())) metal.noise_chi2 += row.squared() / fit.dof();
+        }
         Provenance from = provenance();
-        from.measurement_sha256 = sha256(measurement_text);
+        from.measurement_sha256 = sha256(sweep.text);
         Material fitted = fitted_material(fit, measurement, sample.folder, from);
         Material published = material_from_set(literature);
-        for (Material* material : {&fitted, &published}) {
-            material->lobe = parse_lobe(options_.lobe);
-            material->masking = parse_masking(options_.masking);
-            material->beta = options_.beta;
-            material->check();
-        }
-        write(folder + "fitted.json", format_material(fitted));
-        write(folder + "literature.json", format_material(published));
+
+        metal.lobe = scan_lobe(site, made, fitted);
         step();
 
-        // The same seed for both: equal paths, so that the difference is the metals' alone.
-        const int side = options_.resolution, small = std::max(1, side / 4);
-        render_to(folder + "fitted.exr", fitted, side, options_.spectral);
-        render_to(folder + "literature.exr", published, side, options_.spectral);
-        if (!options_.spectral) {
-            render_to(folder + "fitted-spectral.exr", fitted, small, true);
-            render_to(folder + "literature-spectral.exr", published, small, true);
-        }
+        render_finish(folder, fitted, published, Finish::rough, metal.lobe->fit);
+        render_finish(folder, fitted, published, Finish::smooth, metal.lobe->fit);
         return metal;
+    }
+
+    StudyLobe scan_lobe(const CaptureSite& site, const Material& made, const Material& fitted) {
+        Captured scan =
+            capture_on_bench(site, made, lobe_recipe_, "lobe-scan.journal", calibration_);
+        write(site.within + "/lobe-scan.csv", scan.text);
+        StudyLobe lobe;
+        lobe.true_lobe = made.lobe;
+        lobe.true_masking = made.masking;
+        lobe.true_beta = made.beta;
+        lobe.capture = std::move(scan.about);
+        lobe.scan = parse_lobe_scan(scan.text, site.within + "/lobe-scan.csv");
+        lobe.fit = fit_lobes(lobe.scan, fitted);
+        for (const FittedLobe& one : lobe.fit.lobes) {
+            lobe.sigma.push_back(std::max(one.sigma_beta, scatter_of_beta(lobe.scan, fitted, one)));
+        }
+        return lobe;
+    }
+
+    // The surface of both: that of the options, or what the lobe scan says.
+    void render_finish(const std::string& folder, Material fitted, Material published,
+                       Finish finish, const LobeFitResult& scan) {
+        const bool rough = finish == Finish::rough;
+        if (rough) {
+            // Of lobes that the scan does not tell apart the best stands for all.
+            set_fitted_lobe(scan, std::string(lobe_name(scan.lobes.front().lobe)), &fitted);
+        } else {
+            fitted.lobe = parse_lobe(options_.lobe);
+            fitted.masking = parse_masking(options_.masking);
+            fitted.beta = options_.beta;
+        }
+        published.lobe = fitted.lobe;
+        published.masking = fitted.masking;
+        published.beta = fitted.beta;
+        fitted.check();
+        published.check();
+        const std::string end = rough ? "-rough.json" : ".json";
+        write(folder + "fitted" + end, format_material(fitted));
+        write(folder + "literature" + end, format_material(published));
+        render_pair(folder, fitted, published, finish);
+    }
+
+    // The same seed for both: equal paths, so that the difference is the metals' alone.
+    void render_pair(const std::string& folder, const Material& fitted, const Material& published,
+                     Finish finish) {
+        const int side = options_.resolution, small = std::max(1, side / 4);
+        for (const bool spectral : {false, true}) {
+            if (spectral && options_.spectral) break;
+            for (const bool is_fitted : {true, false}) {
+                render_to(folder + picture_file(is_fitted, finish, spectral),
+                          is_fitted ? fitted : published, spectral ? small : side,
+                          spectral || options_.spectral);
+            }
+        }
     }
 
     void render_to(const std::string& file, const Material& material, int side, bool spectral) {
@@ -201,6 +281,8 @@ class StudyRun {
     StudyOptions options_;
     Progress progress_;
     Scene scene_;
+    Recipe sweep_recipe_ = default_recipe(RecipeKind::psi_delta), lobe_recipe_;
+    Calibration calibration_;
     StudyResult result_;
 };
 

@@ -6,11 +6,49 @@
 #include <string>
 #include <vector>
 
+#include "fitter/lobe_fit.h"
+#include "materials/lobe_scan.h"
 #include "materials/material.h"
 #include "materials/measurement.h"
 #include "report/pair_statistics.h"
 
 namespace drude {
+
+// The error of Psi and Delta that all wavelengths of one angle of incidence share, as the reduction
+// states it: standard deviations in degrees, from the mounts' repeatability and the calibration.
+struct CommonError {
+    double angle_deg = 0, sigma_psi_deg = 0, sigma_delta_deg = 0;
+};
+
+// How a sweep went on the virtual bench, beside what its measurement says itself.
+struct StudyCapture {
+    uint64_t seed = 0;  // of the bench's noise and jitter
+    double integration_s = 0;
+    size_t frames = 0;         // that were kept
+    double bench_seconds = 0;  // by the bench's clock
+    size_t retries = 0;
+    // Of the scans; empty and 0 for lobe scans. The largest fourth harmonic and drift, the rms
+    // residual over the stated noise, the mean azimuth jitter seen in the residuals.
+    std::vector<CommonError> common;
+    double harmonic_4 = 0, drift = 0, residual_over_noise = 0, step_jitter_deg = 0;
+    size_t saturated = 0;  // readings left out
+    std::vector<std::string> warnings;
+};
+
+// A lobe scan of a sample and what was found in it.
+struct StudyLobe {
+    Lobe true_lobe = Lobe::trowbridge_reitz;
+    Masking true_masking = Masking::v_groove;
+    double true_beta = 0;
+    StudyCapture capture;
+    LobeScan scan;
+    LobeFitResult fit;
+    // Of each of fit.lobes: the standard deviation of its beta, the larger of sigma_beta and
+    // scatter_of_beta() (fitter/lobe_scatter.h).
+    std::vector<double> sigma;
+    Material surface;  // the fitted metal with the recovered lobe and beta, as it was rendered
+    std::optional<PairStatistics> pair;  // of the two renderings with it, where they were compared
+};
 
 // One metal: a virtual sample, its measurement and fit, and the published set it is compared with.
 struct StudyMetal {
@@ -20,14 +58,17 @@ struct StudyMetal {
     std::string sample_set_citation;
     std::string literature_set;  // the set it is compared with
     std::string literature_set_citation;
-    uint64_t seed = 0;            // of the instrument's noise
-    Measurement measurement;      // simulated; angles and wavelengths as taken
+    StudyCapture capture;
+    Measurement measurement;      // captured on the virtual bench
     Measurement fitted_curve;     // Psi and Delta of the fitted model; without rows: no curve
     OpticalConstants fitted;      // with sigma_n, sigma_k where known
     OpticalConstants literature;  // the table of literature_set
     std::vector<OpticalConstants> published;  // every set of this metal, the two above included
-    double reduced_chi2 = 0;
+    // Of the fit, which counts the common error among the standard deviations, and of the same fit
+    // with the noise of each wavelength alone.
+    double reduced_chi2 = 0, noise_chi2 = 0;
     double dof = 0;                      // degrees of freedom of the fit
+    std::optional<StudyLobe> lobe;       // of a rough sample
     double rms_dn = 0, rms_dk = 0;       // fitted against literature, over the measured wavelengths
     std::optional<PairStatistics> pair;  // of the two renderings, where they were compared
 };
@@ -44,13 +85,14 @@ struct StudyFilm {
     std::string name;    // "Anodised aluminium"
     std::string folder;  // within the study's
     std::string substrate_set, film_set;
-    uint64_t seed = 0;
+    StudyCapture capture;
     Measurement measurement;
     Measurement fitted_curve;            // of the fitted film
     Material sample;                     // what was measured
     Material fitted;                     // with its film
     OpticalConstants bare;               // pseudo n, k of the fit that knows of no film
     double film_chi2 = 0, film_dof = 0;  // reduced chi-square of either fit
+    double noise_chi2 = 0;               // of the film's, without the common error
     double bare_chi2 = 0, bare_dof = 0;
     std::vector<StudyParameter> parameters;
 };
@@ -68,6 +110,7 @@ struct StudyInfo {
     std::string masking;             // "v-groove"
     double beta = 0;                 // radians, as conventions of the lobe say
     std::string estimator;           // "psi-delta"
+    std::string bench;               // settings of the virtual bench, JSON
     std::vector<std::string> notes;  // warnings a reader should see
 };
 

@@ -1,11 +1,14 @@
 #include "report/study_fit.h"
 
+#include "report/bench_capture.h"
+
 namespace drude {
 
 FitReport fit_report_of(const StudyMetal& metal) {
     FitReport report;
     report.name = metal.name;
-    report.measurement = metal.measurement;
+    // What the fit weighed it by.
+    report.measurement = with_common_error(metal.measurement, metal.capture.common);
     report.fit.estimator = "psi-delta";
     report.fit.model = "bulk";
     const OpticalConstants& fitted = metal.fitted;

@@ -12,12 +12,13 @@
 #include "device/virtual/ellipsometer_simulation.h"
 #include "fitter/literature.h"
 #include "materials/json_tree.h"
+#include "report/capture_record.h"
 
 namespace drude {
 
 namespace {
 
-constexpr const char* format_name = "drude-study/1";
+constexpr const char* format_name = "drude-study/2";
 constexpr uint64_t largest_record = uint64_t{1} << 22;
 
 uint64_t whole_number(const JsonValue& value) {
@@ -67,13 +68,14 @@ StudyInfo read_info(const JsonValue& root) {
     info.masking = root.at("masking").string();
     info.beta = root.at("beta").number();
     info.estimator = root.at("estimator").string();
+    info.bench = root.at("bench").string();
     info.notes = root.at("notes").strings();
     return info;
 }
 
 StudyMetal read_metal(const std::string& folder, const JsonValue& value) {
-    value.allow_keys(
-        {"name", "folder", "sample_set", "literature_set", "seed", "reduced_chi2", "dof"});
+    value.allow_keys({"name", "folder", "sample_set", "literature_set", "capture", "reduced_chi2",
+                      "noise_chi2", "dof", "lobe"});
     StudyMetal metal;
     metal.name = value.at("name").string();
     metal.folder = folder_name(value.at("folder"));
@@ -83,8 +85,9 @@ StudyMetal read_metal(const std::string& folder, const JsonValue& value) {
     metal.sample_set_citation = sample.citation;
     metal.literature_set = metal.literature.name;
     metal.literature_set_citation = metal.literature.citation;
-    metal.seed = whole_number(value.at("seed"));
+    metal.capture = read_capture(value.at("capture"));
     metal.reduced_chi2 = value.at("reduced_chi2").number();
+    metal.noise_chi2 = value.at("noise_chi2").number();
     metal.dof = value.at("dof").number();
     for (const OpticalConstants& set : published_sets()) {
         if (set.material == sample.material) metal.published.push_back(set);
@@ -95,18 +98,28 @@ StudyMetal read_metal(const std::string& folder, const JsonValue& value) {
     metal.fitted = fitted.substrate;
     metal.fitted_curve = curve_of(fitted, metal.measurement);
     compare_constants(&metal);
+    if (value.has("lobe")) {
+        metal.lobe = read_lobe(value.at("lobe"));
+        metal.lobe->scan = read_lobe_scan(inside + "lobe-scan.csv");
+        const Material made = read_material(inside + "sample.json");
+        metal.lobe->true_lobe = made.lobe;
+        metal.lobe->true_masking = made.masking;
+        metal.lobe->true_beta = made.beta;
+        metal.lobe->surface = read_material(inside + "fitted-rough.json");
+    }
     return metal;
 }
 
 StudyFilm read_film(const std::string& folder, const JsonValue& value) {
-    value.allow_keys({"name", "folder", "substrate_set", "film_set", "seed", "film_chi2",
-                      "film_dof", "bare_chi2", "bare_dof", "parameters"});
+    value.allow_keys({"name", "folder", "substrate_set", "film_set", "capture", "film_chi2",
+                      "film_dof", "noise_chi2", "bare_chi2", "bare_dof", "parameters"});
     StudyFilm film;
     film.name = value.at("name").string();
     film.folder = folder_name(value.at("folder"));
     film.substrate_set = set_of(value.at("substrate_set")).name;
     film.film_set = set_of(value.at("film_set")).name;
-    film.seed = whole_number(value.at("seed"));
+    film.capture = read_capture(value.at("capture"));
+    film.noise_chi2 = value.at("noise_chi2").number();
     film.film_chi2 = value.at("film_chi2").number();
     film.film_dof = value.at("film_dof").number();
     film.bare_chi2 = value.at("bare_chi2").number();
@@ -171,6 +184,7 @@ std::string format_study_record(const Study& study) {
                            {"masking", info.masking},
                            {"beta", info.beta},
                            {"estimator", info.estimator},
+                           {"bench", info.bench},
                            {"notes", info.notes},
                            {"metals", ordered_json::array()}};
     for (const StudyMetal& metal : study.metals) {
@@ -178,9 +192,11 @@ std::string format_study_record(const Study& study) {
                                     {"folder", metal.folder},
                                     {"sample_set", metal.sample_set},
                                     {"literature_set", metal.literature_set},
-                                    {"seed", whole(metal.seed)},
+                                    {"capture", capture_json(metal.capture)},
                                     {"reduced_chi2", metal.reduced_chi2},
+                                    {"noise_chi2", metal.noise_chi2},
                                     {"dof", metal.dof}});
+        if (metal.lobe) record["metals"].back()["lobe"] = lobe_json(*metal.lobe);
     }
     if (study.film) {
         const StudyFilm& film = *study.film;
@@ -194,9 +210,10 @@ std::string format_study_record(const Study& study) {
                           {"folder", film.folder},
                           {"substrate_set", film.substrate_set},
                           {"film_set", film.film_set},
-                          {"seed", whole(film.seed)},
+                          {"capture", capture_json(film.capture)},
                           {"film_chi2", film.film_chi2},
                           {"film_dof", film.film_dof},
+                          {"noise_chi2", film.noise_chi2},
                           {"bare_chi2", film.bare_chi2},
                           {"bare_dof", film.bare_dof},
                           {"parameters", parameters}};
@@ -216,12 +233,14 @@ Study read_study(const std::string& folder) {
     const JsonValue root(document);
     const std::string format = root.at("format").string();
     if (format != format_name) {
-        user_error_at(root.at("format").place(), "found the format '{}', expected '{}'", format,
-                      format_name);
+        user_error_at(root.at("format").place(),
+                      "found the format '{}', expected '{}'; 'drude reproduce -o DIR' of this "
+                      "version makes the study again",
+                      format, format_name);
     }
     root.allow_keys({"format", "version", "command_line", "environment", "environment_credit",
                      "seconds", "render_seconds", "samples_per_pixel", "seed", "lobe", "masking",
-                     "beta", "estimator", "notes", "metals", "film"});
+                     "beta", "estimator", "bench", "notes", "metals", "film"});
     Study study;
     study.info = read_info(root);
     for (const JsonValue& value : root.at("metals").array()) {
@@ -232,18 +251,24 @@ Study read_study(const std::string& folder) {
     return study;
 }
 
-StudyPair read_pair(const std::string& folder, const StudyMetal& metal) {
+std::string picture_file(bool fitted, Finish finish, bool spectral) {
+    return fmt::format("{}{}{}.exr", fitted ? "fitted" : "literature",
+                       finish == Finish::rough ? "-rough" : "", spectral ? "-spectral" : "");
+}
+
+StudyPair read_pair(const std::string& folder, const StudyMetal& metal, Finish finish) {
     const std::string inside = folder + "/" + metal.folder + "/";
     StudyPair pair;
-    pair.fitted = read_picture(inside + "fitted.exr");
-    pair.literature = read_picture(inside + "literature.exr");
+    pair.fitted = read_picture(inside + picture_file(true, finish, false));
+    pair.literature = read_picture(inside + picture_file(false, finish, false));
     expect_one_size(pair.fitted, pair.literature, inside);
     if (has_spectra(pair.fitted) && has_spectra(pair.literature)) {
         pair.fitted_spectral = pair.fitted;
         pair.literature_spectral = pair.literature;
         return pair;
     }
-    const std::string a = inside + "fitted-spectral.exr", b = inside + "literature-spectral.exr";
+    const std::string a = inside + picture_file(true, finish, true);
+    const std::string b = inside + picture_file(false, finish, true);
     if (!std::filesystem::exists(a) || !std::filesystem::exists(b)) return pair;
     pair.fitted_spectral = read_picture(a);
     pair.literature_spectral = read_picture(b);

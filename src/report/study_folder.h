@@ -9,7 +9,7 @@
 
 namespace drude {
 
-// DIR/study.json (format "drude-study/1"): what the files beside it do not say themselves.
+// DIR/study.json (format "drude-study/2"): what the files beside it do not say themselves.
 std::string format_study_record(const Study& study);
 
 // Reads DIR/study.json and every measurement and material it names; what can be computed from
@@ -18,9 +18,14 @@ std::string format_study_record(const Study& study);
 // whatever is missing or wrong in it.
 Study read_study(const std::string& folder);
 
-// The two renderings of one metal, with S0.R ... S3.B; and their spectral layers, which are the
-// same pictures' where these have them, otherwise those of the smaller pictures
-// fitted-spectral.exr and literature-spectral.exr. Empty (0 x 0) where there are neither.
+// Of the half-spheres: with the roughness that the study's options give, or with the lobe and beta
+// that the sample's lobe scan says.
+enum class Finish { smooth, rough };
+
+// The two renderings of one metal with one finish, with S0.R ... S3.B; and their spectral layers,
+// which are the same pictures' where these have them, otherwise those of the smaller pictures
+// fitted-spectral.exr and literature-spectral.exr (of the rough ones fitted-rough.exr,
+// fitted-rough-spectral.exr, ...). Empty (0 x 0) where there are neither.
 struct StudyPair {
     Image fitted, literature;
     Image fitted_spectral, literature_spectral;
@@ -28,7 +33,10 @@ struct StudyPair {
 };
 // Throws Error (user) where a picture is missing, lacks its Stokes channels, or the two of a pair
 // differ in size.
-StudyPair read_pair(const std::string& folder, const StudyMetal& metal);
+StudyPair read_pair(const std::string& folder, const StudyMetal& metal, Finish finish);
+
+// "fitted.exr", "literature-rough-spectral.exr": a picture within its metal's folder.
+std::string picture_file(bool fitted, Finish finish, bool spectral);
 
 // rms_dn and rms_dk of `metal` against its literature's constants.
 void compare_constants(StudyMetal* metal);

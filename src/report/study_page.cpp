@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "fitter/paper_table.h"
+#include "report/bench_capture.h"
 #include "report/fit_plots.h"
 #include "report/study_fit.h"
 #include "report/study_sections.h"
@@ -20,37 +19,6 @@ const OpticalConstants* find_set(const StudyMetal& metal, const std::string& nam
     for (const OpticalConstants& set : metal.published)
         if (set.name == name) return &set;
     return nullptr;
-}
-
-// "81 wavelengths, 380 to 780 nm, at 45°, 60°; noise σ(Ψ) = 0.05°, σ(Δ) = 0.1°".
-std::string extent(const Measurement& measurement) {
-    const std::vector<double> wavelengths = measurement.wavelengths();
-    if (wavelengths.empty()) return "no rows";
-    std::string angles;
-    for (const double angle : measurement.angles())
-        angles += fmt::format("{}{:g}°", angles.empty() ? "" : ", ", angle);
-    std::string text = fmt::format("{} wavelengths, {:g} to {:g} nm, at {}", wavelengths.size(),
-                                   wavelengths.front(), wavelengths.back(), angles);
-    if (measurement.has_sigma())
-        text += fmt::format("; noise σ(Ψ) = {:g}°, σ(Δ) = {:g}°",
-                            measurement.rows.front().sigma_psi_deg,
-                            measurement.rows.front().sigma_delta_deg);
-    return text;
-}
-
-// "the paper's 6 angles", "3 angles", "2 to 6 angles": of all measurements together.
-std::string angles_text(const Study& study) {
-    size_t least = std::numeric_limits<size_t>::max(), most = 0;
-    bool papers = !study.metals.empty();
-    for (const StudyMetal& metal : study.metals) {
-        const std::vector<double> angles = metal.measurement.angles();
-        least = std::min(least, angles.size());
-        most = std::max(most, angles.size());
-        papers = papers && angles == paper_angles_deg();
-    }
-    if (papers) return fmt::format("the paper's {} angles", most);
-    if (least < most) return fmt::format("{} to {} angles", least, most);
-    return fmt::format("{} {}", most, most == 1 ? "angle" : "angles");
 }
 
 // Every tenth or so of the wavelengths; the whole table is in the CSV beside the page.
@@ -96,19 +64,23 @@ void section_samples(Page& page, const Study& study) {
     page.section("The samples", "samples");
     page.note(
         "The samples are virtual. No hardware was used and no piece of metal was measured here: "
-        "each sample is a set of optical constants that others published, and its measurement is "
-        "simulated from it with random instrument noise.");
+        "each sample is a set of optical constants that others published, with a roughness of "
+        "ours, "
+        "and its measurement is captured on a simulated bench.");
     PageTable table;
     table.caption =
         "What each sample is made of, and the published set that stands for the handbook. The "
         "paper's own samples, metals from a hardware store and two coins, cannot be had: their "
         "data were never published.";
-    table.columns = {"Sample", "Made of", "Compared with", "Seed of the noise"};
-    table.numeric = {false, false, false, true};
+    table.columns = {"Sample", "Made of", "Lobe and β", "Compared with", "Seed"};
+    table.numeric = {false, false, false, false, true};
     std::vector<std::string> calculated;
     for (const StudyMetal& m : study.metals) {
-        table.rows.push_back({m.name, set_with_kind(m, m.sample_set),
-                              set_with_kind(m, m.literature_set), fmt::format("{}", m.seed)});
+        const std::string finish =
+            m.lobe ? fmt::format("{}, {:g}", lobe_name(m.lobe->true_lobe), m.lobe->true_beta) : "–";
+        table.rows.push_back({m.name, set_with_kind(m, m.sample_set), finish,
+                              set_with_kind(m, m.literature_set),
+                              fmt::format("{}", m.capture.seed)});
         const OpticalConstants* set = find_set(m, m.sample_set);
         if (set && set->kind == "calculated")
             calculated.push_back(fmt::format("{} ({})", m.sample_set, m.name));
@@ -119,7 +91,8 @@ void section_samples(Page& page, const Study& study) {
         if (!film.sample.layers.empty())
             made = fmt::format("{:g} nm of {} on {}", film.sample.layers[0].thickness_nm,
                                film.sample.layers[0].constants.citation, film.substrate_set);
-        table.rows.push_back({film.name, made, "the bare substrate", fmt::format("{}", film.seed)});
+        table.rows.push_back({film.name, made, "a mirror", "the bare substrate",
+                              fmt::format("{}", film.capture.seed)});
     }
     page.table(table);
     if (!calculated.empty())
@@ -128,26 +101,6 @@ void section_samples(Page& page, const Study& study) {
                         "calculated.",
                         fmt::join(calculated, ", "), calculated.size() == 1 ? "is" : "are"));
     for (const std::string& note : study.info.notes) page.note(note);
-}
-
-void section_captured(Page& page, const Study& study) {
-    page.section("What was captured", "captured");
-    page.paragraph(fmt::format(
-        "Ψ and Δ against wavelength at {} of incidence: tan Ψ is how much p light is attenuated "
-        "against s light by the reflection, Δ how far it falls behind it. Points are the simulated "
-        "measurement, lines the fitted model.{}",
-        angles_text(study), study.film ? " " + study.film->name + " is in figure 6 below." : ""));
-    std::vector<std::pair<std::string, std::string>> facts;
-    for (const StudyMetal& m : study.metals) facts.emplace_back(m.name, extent(m.measurement));
-    if (study.film) facts.emplace_back(study.film->name, extent(study.film->measurement));
-    page.facts(facts);
-    page.begin_grid();
-    for (const StudyMetal& m : study.metals) {
-        const std::vector<FitFigure> figures = data_figures(fit_report_of(m));
-        page.svg(figures[0].svg, "");
-        page.svg(figures[1].svg, "");
-    }
-    page.end_grid();
 }
 
 void section_fits(Page& page, const Study& study) {
@@ -159,22 +112,38 @@ void section_fits(Page& page, const Study& study) {
         "other lines lie is what authors disagree about.");
     PageTable fits;
     fits.caption =
-        "How well each fit describes its measurement (reduced χ², expected 1 within about "
-        "√(2/dof)), and how far it lies from the literature set it is compared with (root mean "
-        "square over the measured wavelengths).";
-    fits.columns = {"Metal", "χ²/dof", "dof", "RMS Δn", "RMS Δk", "Compared with"};
-    fits.numeric = {false, true, true, true, true, false};
+        "How well each fit describes its measurement: reduced χ² with the noise and the common "
+        "error, and how far from 1 that may be; the same with the noise alone, and what the common "
+        "error makes of that on average. And how far the fit lies from the literature set it is "
+        "compared with (root mean square over the measured wavelengths).";
+    fits.columns = {"Metal",    "χ²/dof", "1 ±",    "dof",          "noise alone",
+                    "expected", "RMS Δn", "RMS Δk", "Compared with"};
+    fits.numeric = {false, true, true, true, true, true, true, true, false};
     for (const StudyMetal& m : study.metals)
-        fits.rows.push_back({m.name, number_text(m.reduced_chi2, 4), number_text(m.dof, 0),
+        fits.rows.push_back({m.name, number_text(m.reduced_chi2, 3),
+                             number_text(chi2_slack(m.measurement, m.capture.common, m.dof), 2),
+                             number_text(m.dof, 0), number_text(m.noise_chi2, 2),
+                             number_text(chi2_by_common_error(m.measurement, m.capture.common), 2),
                              number_text(m.rms_dn, 4), number_text(m.rms_dk, 4), m.literature_set});
     if (study.film) {
         const StudyFilm& film = *study.film;
-        fits.rows.push_back({film.name + ", with its film", number_text(film.film_chi2, 4),
-                             number_text(film.film_dof, 0), "–", "–", "–"});
-        fits.rows.push_back({film.name + ", as a bare metal", number_text(film.bare_chi2, 1),
-                             number_text(film.bare_dof, 0), "–", "–", "–"});
+        fits.rows.push_back(
+            {film.name + ", with its film", number_text(film.film_chi2, 3),
+             number_text(chi2_slack(film.measurement, film.capture.common, film.film_dof), 2),
+             number_text(film.film_dof, 0), number_text(film.noise_chi2, 2),
+             number_text(chi2_by_common_error(film.measurement, film.capture.common), 2), "–", "–",
+             "–"});
+        fits.rows.push_back({film.name + ", as a bare metal", number_text(film.bare_chi2, 1), "–",
+                             number_text(film.bare_dof, 0), "–", "–", "–", "–", "–"});
     }
     page.table(fits);
+    page.paragraph(
+        "The common error is what the mounts' stops and the calibration's azimuths leave in all "
+        "wavelengths of an angle alike. It does not average out over them, so that its few draws "
+        "decide how far from 1 a χ² lies; with the noise alone for a measure the χ² would be that "
+        "of the mounts. A detector sees a cone, and in it facets that are tilted: on a rough "
+        "sample that moves Δ by some hundredths of a degree, which no standard deviation here "
+        "holds.");
     if (study.film && !study.film->parameters.empty()) {
         PageTable film;
         film.caption = "The film on the anodised aluminium: fitted, and what it was made with.";
@@ -203,14 +172,15 @@ void section_fits(Page& page, const Study& study) {
 std::string study_page(const Study& study, const StudyPage& content) {
     Page page("Metals, measured and looked up");
     page.banner("drude " + study.info.version,
-                "Optical constants of metals fitted to simulated ellipsometry, rendered beside "
-                "those of the literature, and the difference between the two: the loop of Berger, "
-                "Weidlich, Wilkie & Magnor (2012), checked claim by claim.");
+                "Optical constants of metals fitted to what a virtual ellipsometer captured, "
+                "rendered beside those of the literature, and the difference between the two: the "
+                "loop of Berger, Weidlich, Wilkie & Magnor (2012), checked claim by claim.");
     page.style(web_style("study"));
     section_question(page, study, content);
     section_samples(page, study);
     section_captured(page, study);
     section_fits(page, study);
+    section_lobes(page, study);
     section_table_1(page, study);
     section_pictures(page, study, content);
     section_claims(page, content);

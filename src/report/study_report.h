@@ -51,7 +51,8 @@ struct ReportResult {
 };
 
 // Reads the folder's record, measurements, fits and EXRs, renders nothing, and writes, for every
-// metal, METAL/nk.csv, fitted.png, literature.png, difference.png; figure-5.svg to figure-8.svg,
+// metal, METAL/nk.csv, fitted.png, literature.png, difference.png and the same of the rough pair
+// (fitted-rough.png, ...); figure-5.svg to figure-8.svg,
 // comparison.png (figure 9), summary.csv and index.html. Throws Error.
 ReportResult write_report(const ReportOptions& options);
 

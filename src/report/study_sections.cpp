@@ -22,6 +22,13 @@ std::string duration(double seconds) {
     return fmt::format("{} min {} s", whole / 60, whole % 60);
 }
 
+// "Copper, rough (blinn-phong, β = 0.1200)".
+std::string rough_name(const StudyMetal& metal) {
+    const Material& surface = metal.lobe->surface;
+    return fmt::format("{}, rough ({}, β = {:.4f})", metal.name, lobe_name(surface.lobe),
+                       surface.beta);
+}
+
 std::string roughness(const StudyInfo& info) {
     return fmt::format("{} lobe, {} masking, β = {:.6g} rad", info.lobe, info.masking, info.beta);
 }
@@ -69,9 +76,10 @@ void section_question(Page& page, const Study& study, const StudyPage& content) 
         "these surfaces, and does it show in a picture whether n and k were measured or looked "
         "up?");
     page.paragraph(
-        "This page goes round the same loop with everything written down: a measurement, a fit, "
-        "two pictures a metal, their difference, and what of the paper's statements that bears "
-        "out.");
+        "This page goes round the same loop with everything written down: a bench that captures "
+        "raw "
+        "frames, the measurement reduced from them, a fit, two pairs of pictures a metal, their "
+        "differences, and what of the paper's statements that bears out.");
     if (!content.claims.empty())
         page.markup(fmt::format(
             "<p>Of {} statements of the paper (<a href=\"#claims\">each with its numbers</a>):</p>"
@@ -82,8 +90,9 @@ void section_question(Page& page, const Study& study, const StudyPage& content) 
             {content.sheet_png,
              "Sheet of rendered half-spheres, one column a metal: fitted constants above, "
              "literature in the middle, their log-scaled difference below."},
-            "As figure 9 of the paper. Above: rendered with the constants fitted to the simulated "
-            "measurement. Middle: with the literature's. Below: log10 of the absolute difference, "
+            "As figure 9 of the paper. Above: rendered with the constants fitted to what the "
+            "virtual bench captured. Middle: with the literature's. Below: log10 of the absolute "
+            "difference, "
             "taken on linear radiance before tone mapping; both pictures of a pair share one tone "
             "curve (Durand & Dorsey 2002)." +
                 (study.info.environment_credit.empty()
@@ -96,7 +105,7 @@ void section_table_1(Page& page, const Study& study) {
     page.paragraph(
         "The paper fitted |ρ|² = tan²Ψ at one wavelength and all angles, from literature values: "
         "the ratio of the Fresnel terms, then the ratio under four facet distributions with β as a "
-        "third unknown. Ours is the same procedure with the study's simulated measurement; the "
+        "third unknown. Ours is the same procedure with the study's captured measurement; the "
         "last line of each table is the fit to Ψ and Δ together.");
     const std::vector<Table1Metal> metals = table_1(study);
     page.note(table_1_note(metals));
@@ -108,7 +117,9 @@ void section_pictures(Page& page, const Study& study, const StudyPage& content) 
     page.section("The pictures, pair by pair", "pictures");
     page.paragraph(
         "Half-spheres in one environment, one seed for both of a pair, so that the difference is "
-        "the metals' alone. Drag the divider, or focus it and use the arrow keys. The cursor, the "
+        "the metals' alone. Each metal has two pairs: nearly polished, with one roughness for all "
+        "metals, as in the paper, and with the lobe and β that its lobe scan says. Drag the "
+        "divider, or focus it and use the arrow keys. The cursor, the "
         "zoom (double click, Ctrl and wheel, or + and −) and the exposure are common to all pairs: "
         "what is read out on one metal is read out on every other at the same place.");
     PageTable table;
@@ -119,16 +130,24 @@ void section_pictures(Page& page, const Study& study, const StudyPage& content) 
         "noticeable 2.3.";
     table.columns = {"Metal", "Mean", "Median", "99 %", "Greatest", "Mean ΔE", "Noticeable"};
     table.numeric = {false, true, true, true, true, true, true};
-    for (const StudyMetal& m : study.metals) {
-        if (!m.pair) continue;
-        const Log10Difference& d = m.pair->log10;
-        table.rows.push_back({m.name, number_text(d.mean, 2), number_text(d.p50, 2),
+    const auto add = [&](const std::string& name, const std::optional<PairStatistics>& pair) {
+        if (!pair) return;
+        const Log10Difference& d = pair->log10;
+        table.rows.push_back({name, number_text(d.mean, 2), number_text(d.p50, 2),
                               number_text(d.p99, 2), number_text(d.max, 2),
-                              number_text(m.pair->mean_delta_e, 2),
-                              number_text(100 * m.pair->noticeable, 1) + " %"});
+                              number_text(pair->mean_delta_e, 2),
+                              number_text(100 * pair->noticeable, 1) + " %"});
+    };
+    std::vector<ViewedPair> pairs;
+    for (const StudyMetal& m : study.metals) {
+        add(m.name, m.pair);
+        pairs.push_back({pair_id(m, Finish::smooth), m.name, m.literature_set});
+        if (!m.lobe) continue;
+        add(rough_name(m), m.lobe->pair);
+        pairs.push_back({pair_id(m, Finish::rough), rough_name(m), m.literature_set});
     }
     if (!content.picture_data.empty()) {
-        page.markup(viewer_markup(study.metals, content.picture_data));
+        page.markup(viewer_markup(pairs, content.picture_data));
         page.style(web_style("viewer"));
         page.script(viewer_script());
         const std::string& credit = study.info.environment_credit;
@@ -198,7 +217,7 @@ void section_sources(Page& page, const Study& study, const StudyPage& content) {
     std::vector<std::pair<std::string, std::string>> facts = {
         {"Program", "drude " + info.version},
         {"Environment", info.environment},
-        {"Surface", roughness(info)},
+        {"Surface of the polished pairs", roughness(info)},
         {"Samples a pixel", fmt::format("{}, seed {}", info.samples_per_pixel, info.seed)},
         {"Estimator", info.estimator},
         {"Wall time", fmt::format("{}, of which {} rendering", duration(info.seconds),

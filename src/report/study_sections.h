@@ -10,6 +10,7 @@ void section_question(Page& page, const Study& study, const StudyPage& content);
 void section_samples(Page& page, const Study& study);
 void section_captured(Page& page, const Study& study);
 void section_fits(Page& page, const Study& study);
+void section_lobes(Page& page, const Study& study);
 void section_table_1(Page& page, const Study& study);
 void section_pictures(Page& page, const Study& study, const StudyPage& content);
 void section_claims(Page& page, const StudyPage& content);

@@ -35,14 +35,15 @@ std::string study_nk_csv(const StudyInfo& info, const StudyMetal& metal) {
     const bool sigmas = fitted.sigma_n.size() == fitted.n.size() &&
                         fitted.sigma_k.size() == fitted.k.size() && !fitted.n.empty();
 
-    std::string out = header("sample", metal.name) +
-                      header("origin", "fitted to a simulated measurement of a published set") +
-                      header("sample_set", metal.sample_set) +
-                      header("sample_set_citation", metal.sample_set_citation) +
-                      header("literature_set", metal.literature_set) +
-                      header("literature_set_citation", metal.literature_set_citation) +
-                      header("seed", fmt::format("{}", metal.seed)) +
-                      header("software", "drude " + info.version);
+    std::string out =
+        header("sample", metal.name) +
+        header("origin", "fitted to what a virtual bench captured of a published set") +
+        header("sample_set", metal.sample_set) +
+        header("sample_set_citation", metal.sample_set_citation) +
+        header("literature_set", metal.literature_set) +
+        header("literature_set_citation", metal.literature_set_citation) +
+        header("seed", fmt::format("{}", metal.capture.seed)) +
+        header("software", "drude " + info.version);
     if (compared && !fitted.wavelength_nm.empty())
         out += header("note", literature.range_warning(fitted.first_nm(), fitted.last_nm()));
     out += "wavelength_nm,n_fitted,k_fitted";
@@ -80,7 +81,7 @@ std::string study_summary_csv(const Study& study) {
         }
         const Log10Difference& d = m.pair->log10;
         const std::vector<double> values = {static_cast<double>(i + 1),
-                                            static_cast<double>(m.seed),
+                                            static_cast<double>(m.capture.seed),
                                             m.reduced_chi2,
                                             m.dof,
                                             m.rms_dn,

@@ -18,16 +18,16 @@ constexpr const char* tools = R"html(<div class="tools" role="group" aria-label=
 </div>
 )html";
 
-std::string figure(const StudyMetal& metal) {
-    const std::string name = escape_markup(metal.name);
-    const std::string literature = escape_markup(metal.literature_set);
+std::string figure(const ViewedPair& pair) {
+    const std::string name = escape_markup(pair.name);
+    const std::string literature = escape_markup(pair.literature_set);
     return fmt::format(
-        R"html(<figure class="viewer" id="pair-{0}" data-metal="{0}">
+        R"html(<figure class="viewer" id="pair-{0}" data-pair="{0}">
 <h3>{1}</h3>
 <div class="panes">
 <div class="pane pair" tabindex="0" role="group" aria-label="{1}, fitted left of the divider, {2} right of it. Arrow keys move the cursor, plus and minus zoom, 0 shows all.">
-<canvas class="under" role="img" aria-label="{1} half-sphere with n, k of {2}"></canvas>
-<canvas class="over" role="img" aria-label="{1} half-sphere with the fitted n, k"></canvas>
+<canvas class="under" role="img" aria-label="{1}: half-sphere with n, k of {2}"></canvas>
+<canvas class="over" role="img" aria-label="{1}: half-sphere with the fitted n, k"></canvas>
 <span class="tag left">fitted</span><span class="tag right">{2}</span>
 <div class="handle" role="slider" tabindex="0" aria-label="Divider of {1}" aria-orientation="horizontal" aria-valuemin="0" aria-valuemax="100" aria-valuenow="50"></div>
 </div>
@@ -43,14 +43,18 @@ std::string figure(const StudyMetal& metal) {
 </div>
 </figure>
 )html",
-        identifier(metal.folder), name, literature);
+        pair.id, name, literature);
 }
 
 }  // namespace
 
-std::string viewer_markup(const std::vector<StudyMetal>& metals, const std::string& picture_data) {
+std::string pair_id(const StudyMetal& metal, Finish finish) {
+    return identifier(metal.folder) + (finish == Finish::rough ? "-rough" : "");
+}
+
+std::string viewer_markup(const std::vector<ViewedPair>& pairs, const std::string& picture_data) {
     std::string markup = tools;
-    for (const StudyMetal& metal : metals) markup += figure(metal);
+    for (const ViewedPair& pair : pairs) markup += figure(pair);
     return markup + "<script type=\"application/json\" id=\"picture-data\">" + picture_data +
            "</script>\n";
 }

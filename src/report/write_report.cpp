@@ -10,6 +10,7 @@
 #include "report/picture_data.h"
 #include "report/study_folder.h"
 #include "report/study_report.h"
+#include "report/viewer.h"
 
 namespace drude {
 
@@ -65,22 +66,29 @@ class ReportRun {
     void look_at_pictures(bool all) {
         FigureSheet sheet(result_.study.info.environment_credit);
         for (StudyMetal& metal : result_.study.metals) {
-            const StudyPair pair = read_pair(options_.folder, metal);
-            const PairPictures pictures = pair_pictures(pair, options_.threads);
-            sheet.add(metal.name, pictures);
-            if (!all) continue;
-            metal.pair = pair_statistics(pair.fitted, pair.literature);
-            data_.add(metal, pair);
-            write(metal.folder + "/fitted.png", png(pictures.fitted));
-            write(metal.folder + "/literature.png", png(pictures.literature));
-            write(metal.folder + "/difference.png",
-                  png(with_colour_bar(pictures.difference, log_difference_bar())));
+            look_at_pair(&metal, Finish::smooth, all, &sheet);
+            if (all && metal.lobe) look_at_pair(&metal, Finish::rough, all, nullptr);
         }
         const Picture picture = sheet.compose();
         write("comparison.png", png(picture));
         // The page shows it reduced: the full one is several megabytes.
         constexpr int widest = 1500;
         if (all) sheet_png_ = png(reduced(picture, (picture.width + widest - 1) / widest));
+    }
+
+    void look_at_pair(StudyMetal* metal, Finish finish, bool all, FigureSheet* sheet) {
+        const StudyPair pair = read_pair(options_.folder, *metal, finish);
+        const PairPictures pictures = pair_pictures(pair, options_.threads);
+        if (sheet) sheet->add(metal->name, pictures);
+        if (!all) return;
+        const bool rough = finish == Finish::rough;
+        (rough ? metal->lobe->pair : metal->pair) = pair_statistics(pair.fitted, pair.literature);
+        data_.add(pair_id(*metal, finish), pair, rough);
+        const std::string end = rough ? "-rough.png" : ".png";
+        write(metal->folder + "/fitted" + end, png(pictures.fitted));
+        write(metal->folder + "/literature" + end, png(pictures.literature));
+        write(metal->folder + "/difference" + end,
+              png(with_colour_bar(pictures.difference, log_difference_bar())));
     }
 
     void write_figure(const PaperFigure& figure) {

@@ -172,8 +172,15 @@ def tools(browser, metals):
     browser.settle()
 
 
+def picture(folder, pair, which, spectral=False):
+    """The EXR of one picture of a pair: "copper-rough", "fitted"."""
+    metal = pair.removesuffix("-rough")
+    finish = "-rough" if pair.endswith("-rough") else ""
+    return f"{folder}/{metal}/{which}{finish}{'-spectral' if spectral else ''}.exr"
+
+
 def read_out(browser, folder, metals):
-    """Numbers at the cursor against the EXRs', at some places of every metal."""
+    """Numbers at the cursor against the EXRs', at some places of every pair."""
     compared, wrong = 0, []
     places = [(0.5, 0.6), (0.31, 0.52), (0.72, 0.66), (0.5, 0.1)]
     for metal in metals:
@@ -188,7 +195,7 @@ def read_out(browser, folder, metals):
             cells = browser.evaluate(
                 f"[...document.querySelectorAll('#pair-{metal} .readout tbody tr')]"
                 ".map((r) => [...r.querySelectorAll('td')].map((c) => c.textContent))")
-            pixels = [exr_pixel(f"{folder}/{metal}/{which}.exr", x, y)
+            pixels = [exr_pixel(picture(folder, metal, which), x, y)
                       for which in ("fitted", "literature")]
             for row in range(8):  # S0 fitted, S0 literature, S1 fitted, ...
                 for i, shown in enumerate(cells[row]):
@@ -219,12 +226,10 @@ def spectrum(browser, folder, metal):
                .split(", "))
     path = browser.evaluate(f"document.querySelector('{drawing} .line-0').getAttribute('d')")
     heights = [float(p.split()[1]) for p in re.split("[ML]", path)[1:]]
-    name = "fitted-spectral.exr"
-    if not os.path.exists(f"{folder}/{metal}/{name}"):
-        name = "fitted.exr"
+    smaller = os.path.exists(picture(folder, metal, "fitted", spectral=True))
     values = {}
     for which in ("fitted", "literature"):
-        pixel = exr_pixel(f"{folder}/{metal}/{name.replace('fitted', which)}", x, y)
+        pixel = exr_pixel(picture(folder, metal, which, spectral=smaller), x, y)
         values[which] = [v for k, v in pixel.items() if k.startswith("S0.") and k.endswith("nm")]
     most = max(values["fitted"] + values["literature"])
     worst = max(abs((108 - h) / 92 - v / most) for h, v in zip(heights, values["fitted"]))
@@ -396,7 +401,11 @@ def main():
     program = browser_program()
     if not program:
         sys.exit("no Chromium found; install it, or name it in CHROMIUM")
-    metals = [m["folder"] for m in json.loads((folder / "study.json").read_text())["metals"]]
+    metals = []  # pairs, in the page's order
+    for metal in json.loads((folder / "study.json").read_text())["metals"]:
+        metals.append(metal["folder"])
+        if "lobe" in metal:
+            metals.append(metal["folder"] + "-rough")
     page = folder / "index.html"
     size = page.stat().st_size / 1e6
     check(size < 15, f"the page has {size:.1f} MB")

@@ -143,15 +143,12 @@ StudyPair small_pair(double extra) {
 
 TEST(PictureData, HoldsEveryPixelOnce) {
     PictureData data;
-    StudyMetal copper, gold;
-    copper.folder = "copper";
-    gold.folder = "gold";
-    data.add(copper, small_pair(0));
-    data.add(gold, small_pair(10));
+    data.add("copper", small_pair(0));
+    data.add("gold", small_pair(10));
     const std::string text = data.json();
     EXPECT_EQ(text.find('<'), std::string::npos);
     const nlohmann::json json = nlohmann::json::parse(text);
-    EXPECT_EQ(json.at("metals"), nlohmann::json({"copper", "gold"}));
+    EXPECT_EQ(json.at("pairs"), nlohmann::json({"copper", "gold"}));
     EXPECT_EQ(json.at("step"), 1);
     const nlohmann::json& colour = json.at("colour");
     EXPECT_EQ(colour.at("width"), 4);
@@ -175,12 +172,10 @@ TEST(PictureData, HoldsEveryPixelOnce) {
 }
 
 TEST(PictureData, KeepsToItsBudgetBySteps) {
-    StudyMetal copper;
-    copper.folder = "copper";
     // Of S1, three planes of two bytes: 48 for the own pixels of both pictures and 24 for the
     // shared ones at every pixel, 12 and 6 at every second of every second row.
     PictureData narrow({512, 71, 1000000});
-    narrow.add(copper, small_pair(0));
+    narrow.add("copper", small_pair(0));
     const nlohmann::json json = nlohmann::json::parse(narrow.json());
     EXPECT_EQ(json.at("colour").at("first"), 1);
     EXPECT_EQ(json.at("colour").at("rest"), 2);
@@ -188,7 +183,7 @@ TEST(PictureData, KeepsToItsBudgetBySteps) {
     EXPECT_EQ(unpack_halves(json.at("colour").at("pictures").at(0).at(1)),
               (std::vector<float>{3.5F / 4, 3.5F / 4, 3.5F / 4}));
     PictureData few({2, 1000000, 1000000});
-    few.add(copper, small_pair(0));
+    few.add("copper", small_pair(0));
     const nlohmann::json reduced_json = nlohmann::json::parse(few.json());
     EXPECT_EQ(reduced_json.at("step"), 2);
     EXPECT_EQ(reduced_json.at("colour").at("width"), 2);
@@ -197,20 +192,44 @@ TEST(PictureData, KeepsToItsBudgetBySteps) {
               (std::vector<float>{1, 1, 1}));
 }
 
+// S0 of two sharp pictures is 72 bytes (four shared and four own pixels, three planes of halves),
+// of two blurred ones 48 more, or 12 at every second pixel of every second row.
+TEST(PictureData, ThinsTheBlurredPairsFirst) {
+    PictureBudget budget;
+    budget.colour_bytes = 100;
+    PictureData data(budget);
+    data.add("copper", small_pair(0));
+    data.add("copper-rough", small_pair(10), true);
+    const nlohmann::json json = nlohmann::json::parse(data.json());
+    EXPECT_EQ(json.at("pairs"), nlohmann::json({"copper", "copper-rough"}));
+    const nlohmann::json& colour = json.at("colour");
+    EXPECT_EQ(colour.at("firsts"), nlohmann::json({1, 1, 2, 2}));
+    // What is compared at one place has one step, or a multiple of it.
+    EXPECT_EQ(colour.at("rest"), 2);
+    EXPECT_EQ(unpack_halves(colour.at("pictures").at(0).at(0)).size(), 12u);
+    EXPECT_EQ(unpack_halves(colour.at("pictures").at(2).at(0)),
+              (std::vector<float>{13.5, 13.5, 13.5}));
+    EXPECT_NE(data.description().find("of the rough surfaces"), std::string::npos);
+    budget.colour_bytes = 120;
+    PictureData whole(budget);
+    whole.add("copper", small_pair(0));
+    whole.add("copper-rough", small_pair(10), true);
+    EXPECT_EQ(nlohmann::json::parse(whole.json()).at("colour").at("firsts"),
+              nlohmann::json({1, 1, 1, 1}));
+}
+
 TEST(PictureData, RefusesPairsThatDoNotBelongTogether) {
     PictureData data;
-    StudyMetal copper;
-    copper.folder = "copper";
-    data.add(copper, small_pair(0));
+    data.add("copper", small_pair(0));
     StudyPair other = small_pair(0);
     for (Image* image : {&other.fitted, &other.literature}) {
         image->height = 1;
         for (Channel& channel : image->channels) channel.data.resize(4);
     }
-    EXPECT_THROW(data.add(copper, other), Error);
+    EXPECT_THROW(data.add("copper", other), Error);
     StudyPair blind = small_pair(0);
     blind.fitted_spectral = blind.literature_spectral = {};
-    EXPECT_THROW(data.add(copper, blind), Error);
+    EXPECT_THROW(data.add("copper", blind), Error);
     EXPECT_EQ(PictureData().json(), "");
 }
 

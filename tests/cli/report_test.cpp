@@ -330,7 +330,9 @@ StudyMetal copper() {
     metal.literature_set = "Cu-Two";
     metal.sample_set_citation = "One et al.";
     metal.literature_set_citation = "Two et al.";
-    metal.seed = 17;
+    metal.capture.seed = 17;
+    metal.capture.common = {{45, 0.05, 0.1}, {70, 0.05, 0.1}};
+    metal.noise_chi2 = 1.75;
     metal.published = {flat_set("Cu-One", "calculated", 1, 2),
                        flat_set("Cu-Two", "measured", 1.5, 2.25)};
     metal.literature = metal.published[1];
@@ -403,7 +405,10 @@ TEST(StudyPage, SaysWhatItIsAndFetchesNothing) {
     for (const char* text : {"Cu-One",
                              "Cu-Two",
                              ">17<",
-                             "1.0123",
+                             "1.012",
+                             ">2.20<",  // 4 (sqrt(2/810) + sqrt(2/2)/2)
+                             ">1.75<",
+                             ">2.00<",
                              "0.1234",
                              "0.0567",
                              "-1.60",
@@ -451,7 +456,7 @@ TEST(StudyTables, ConstantsReadBackExactly) {
     EXPECT_EQ(table.rows[0].values, first);
     EXPECT_EQ(table.header_value("sample_set"), "Cu-One");
     EXPECT_EQ(table.header_value("seed"), "17");
-    EXPECT_NE(table.header_value("origin").find("simulated"), std::string::npos);
+    EXPECT_NE(table.header_value("origin").find("virtual bench"), std::string::npos);
     EXPECT_EQ(table.header_value("note"), "");
 }
 

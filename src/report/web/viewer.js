@@ -166,9 +166,9 @@ async function start() {
   [colour, spectral] = await Promise.all([assemble(data.colour),
     data.spectral ? assemble(data.spectral) : null]);
   if (!spectral) byId('difference').querySelector('[value=spectral]').remove();
-  figures.forEach((figure) => {
-    const source = () => Object.assign(document.createElement('canvas'),
-      {width: colour.width, height: colour.height});
+  figures.forEach((figure, number) => {
+    const {width, height} = colour.firsts[2 * number];
+    const source = () => Object.assign(document.createElement('canvas'), {width, height});
     const pair = figure.querySelector('.pair'), map = figure.querySelector('.map');
     const s = {figure, pair, handle: figure.querySelector('.handle'),
       over: figure.querySelector('.over'), under: figure.querySelector('.under'),

@@ -1,7 +1,7 @@
 // The pairs of a study, first part: the half floats that the page carries, taken apart as
 // report/picture_data.h lays them out. The parts are joined in one function (viewer_script()).
 const data = JSON.parse(document.getElementById('picture-data').textContent);
-const figures = data.metals.map((id) => document.querySelector(`.viewer[data-metal="${id}"]`));
+const figures = data.pairs.map((id) => document.querySelector(`.viewer[data-pair="${id}"]`));
 const byId = (id) => document.getElementById(id);
 
 const fromHalf = new Float32Array(65536);
@@ -32,7 +32,9 @@ async function halves(text) {
 // planes of whole pictures. rows[picture][S] holds plane after plane; null: zeros.
 async function assemble(group) {
   const own = await inflate(group.own);
+  const grids = new Map();
   const places = (step) => {
+    if (grids.has(step)) return grids.get(step);
     const width = Math.ceil(group.width / step), height = Math.ceil(group.height / step);
     const shared = [], mine = [];
     for (let y = 0; y < height; ++y) {
@@ -40,29 +42,55 @@ async function assemble(group) {
         (own[y * step * group.width + x * step] ? mine : shared).push(y * width + x);
       }
     }
-    return {step, width, height, size: width * height, shared, mine};
+    const grid = {step, width, height, size: width * height, shared, mine};
+    grids.set(step, grid);
+    return grid;
   };
-  const first = places(group.first);
-  const rest = group.rest === group.first ? first : places(group.rest);
-  const common = await Promise.all(group.shared.map(halves));
-  const rows = [];
-  for (const picture of group.pictures) {
+  const first = places(group.first), rest = places(group.rest);
+  // What is shared stands on a grid of its own, of which a coarser one takes every so-many-th.
+  const shared = await Promise.all(group.shared.map(async (text, s) => {
+    const its = await halves(text), grid = s === 0 ? first : rest;
+    if (!its) return null;
+    const out = new Uint16Array(group.planes * grid.size);
+    for (let plane = 0; plane < group.planes; ++plane) {
+      grid.shared.forEach((p, i) => {
+        out[plane * grid.size + p] = its[plane * grid.shared.length + i];
+      });
+    }
+    return out;
+  }));
+  const rows = [], firsts = [];
+  for (const [number, picture] of group.pictures.entries()) {
+    const own0 = places(group.firsts[number]);
+    firsts.push(own0);
     rows.push(await Promise.all(picture.map(async (text, s) => {
-      const its = await halves(text);
-      if (!its && !common[s]) return null;
-      const {size, shared, mine} = s === 0 ? first : rest;
-      const out = new Uint16Array(group.planes * size);
+      const its = await halves(text), common = shared[s];
+      if (!its && !common) return null;
+      const grid = s === 0 ? own0 : rest, from = s === 0 ? first : rest;
+      const far = grid.step / from.step;
+      const out = new Uint16Array(group.planes * grid.size);
       for (let plane = 0; plane < group.planes; ++plane) {
-        if (common[s]) shared.forEach((p, i) => {
-          out[plane * size + p] = common[s][plane * shared.length + i];
-        });
-        if (its) mine.forEach((p, i) => { out[plane * size + p] = its[plane * mine.length + i]; });
+        if (common) {
+          for (const p of grid.shared) {
+            const q = Math.floor(p / grid.width) * far * from.width + p % grid.width * far;
+            out[plane * grid.size + p] = common[plane * from.size + q];
+          }
+        }
+        if (its) {
+          grid.mine.forEach((p, i) => {
+            out[plane * grid.size + p] = its[plane * grid.mine.length + i];
+          });
+        }
       }
       return out;
     })));
   }
-  return {first, rest, rows, own, planes: group.planes, width: group.width, height: group.height};
+  return {first, firsts, rest, rows, own, planes: group.planes, width: group.width,
+    height: group.height};
 }
+
+// The place on `grid` of what stands at (x, y) of the finest one.
+const placeOn = (grid, x, y) => Math.floor(y / grid.step) * grid.width + Math.floor(x / grid.step);
 
 const value = (layer, index) => layer ? fromHalf[layer[index]] : 0;
 

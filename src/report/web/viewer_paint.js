@@ -14,14 +14,16 @@ let reference = 1;
 // The key of Reinhard et al. 2002, eqs. 1 and 2: the metals' log-average luminance becomes 0.18.
 function chooseReference() {
   let sum = 0, count = 0;
-  for (const rows of colour.rows) {
-    for (let p = 0; p < colour.first.size; p += 7) {
-      const y = colour.own[p] ? meanY(rows, 0, colour.first, p) : 0;
+  colour.rows.forEach((rows, picture) => {
+    const grid = colour.firsts[picture];
+    for (const p of grid.mine) {
+      if (p % 7) continue;
+      const y = meanY(rows, 0, grid, p);
       if (!(y > 0) || y === Infinity) continue;
       sum += Math.log(y);
       ++count;
     }
-  }
+  });
   if (count) reference = Math.exp(sum / count) / 0.18;
 }
 
@@ -37,9 +39,9 @@ function fillDisplay() {
   }
 }
 
-function paintPicture(canvas, s0) {
-  const size = colour.width * colour.height;
-  const image = canvas.getContext('2d').createImageData(colour.width, colour.height);
+function paintPicture(canvas, picture) {
+  const {width, height, size} = colour.firsts[picture], s0 = colour.rows[picture][0];
+  const image = canvas.getContext('2d').createImageData(width, height);
   for (let p = 0, o = 0; p < size; ++p, o += 4) {
     image.data[o] = display[s0[p]];
     image.data[o + 1] = display[s0[size + p]];
@@ -70,10 +72,11 @@ function meanY(rows, s, grid, p) {
 }
 
 // {grid, at(p)}: NaN is grey; undefined: the same in both pictures.
-function differenceOf(metal, kind) {
-  const a = colour.rows[2 * metal], b = colour.rows[2 * metal + 1], size = colour.first.size;
+function differenceOf(pair, kind) {
+  const a = colour.rows[2 * pair], b = colour.rows[2 * pair + 1], s0 = colour.firsts[2 * pair];
+  const size = s0.size;
   if (kind === 'log' || kind === 'signed') {
-    return {grid: colour.first, at: (p) => {
+    return {grid: s0, at: (p) => {
       let absolute = 0, signed = 0;
       for (let c = 0; c < 3; ++c) {
         const d = fromHalf[a[0][c * size + p]] - fromHalf[b[0][c * size + p]];
@@ -85,7 +88,7 @@ function differenceOf(metal, kind) {
     }};
   }
   if (kind === 'spectral') {
-    const x = spectral.rows[2 * metal], y = spectral.rows[2 * metal + 1], grid = spectral.first;
+    const x = spectral.rows[2 * pair], y = spectral.rows[2 * pair + 1], grid = spectral.first;
     return {grid, at: (p) => {
       let moved = 0, total = 0;
       for (let w = 0; w < spectral.planes; ++w) {
@@ -99,7 +102,7 @@ function differenceOf(metal, kind) {
   const grid = colour.rest, step = grid.step;
   const at = (rows, p) => {
     const x = p % grid.width * step, y = Math.floor(p / grid.width) * step;
-    return linear(meanY(rows, 0, colour.first, y * colour.width + x),
+    return linear(meanY(rows, 0, s0, placeOn(s0, x, y)),
       meanY(rows, 1, grid, p), meanY(rows, 2, grid, p));
   };
   return {grid, at: (p) => {
@@ -115,9 +118,9 @@ function differenceOf(metal, kind) {
 const mapBytes = (text) => Uint8Array.from(text.match(/../g), (pair) => parseInt(pair, 16));
 const maps = {sequential: mapBytes(data.sequential), diverging: mapBytes(data.diverging)};
 
-function paintDifference(canvas, metal, kind) {
+function paintDifference(canvas, pair, kind) {
   const {map, low, high} = differences[kind], colours = maps[map];
-  const {grid, at} = differenceOf(metal, kind);
+  const {grid, at} = differenceOf(pair, kind);
   canvas.width = grid.width;
   canvas.height = grid.height;
   const image = canvas.getContext('2d').createImageData(grid.width, grid.height);
@@ -181,9 +184,9 @@ function drawAll() {
 
 function paintAll() {
   fillDisplay();
-  screens.forEach((s, metal) => {
-    paintPicture(s.fitted, colour.rows[2 * metal][0]);
-    paintPicture(s.literature, colour.rows[2 * metal + 1][0]);
+  screens.forEach((s, pair) => {
+    paintPicture(s.fitted, 2 * pair);
+    paintPicture(s.literature, 2 * pair + 1);
   });
 }
 
@@ -194,8 +197,8 @@ function paintDifferences() {
     const at = 3 * Math.round(i * 255 / 16);
     stops.push(`rgb(${colours[at]} ${colours[at + 1]} ${colours[at + 2]})`);
   }
-  screens.forEach((s, metal) => {
-    paintDifference(s.difference, metal, view.difference);
+  screens.forEach((s, pair) => {
+    paintDifference(s.difference, pair, view.difference);
     s.figure.querySelector('.ramp').style.background = `linear-gradient(90deg,${stops})`;
     const labels = s.figure.querySelectorAll('.scale span');
     [low, (low + high) / 2, high].forEach((v, i) => {

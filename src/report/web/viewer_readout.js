@@ -6,7 +6,7 @@ function shown(v) {
   return minus(Math.abs(v) < 0.01 ? v.toExponential(2) : v.toPrecision(4));
 }
 
-function spectrumDrawing(metal) {
+function spectrumDrawing(pair) {
   if (!spectral) return '';
   const grid = spectral.first, nm = data.spectral.nm, n = nm.length;
   const gx = Math.min(grid.width - 1,
@@ -15,7 +15,7 @@ function spectrumDrawing(metal) {
     Math.floor((view.cursor.y + 0.5) / colour.height * spectral.height / grid.step));
   const p = gy * grid.width + gx;
   const curves = [0, 1].map((which) => {
-    const rows = spectral.rows[2 * metal + which];
+    const rows = spectral.rows[2 * pair + which];
     const s0 = [], degree = [];
     for (let w = 0; w < n; ++w) {
       const i = w * grid.size + p;
@@ -51,10 +51,10 @@ function spectrumDrawing(metal) {
 
 function readOut() {
   if (!view.cursor) return;
-  const {x, y} = view.cursor, first = colour.first, rest = colour.rest;
-  const p = y * colour.width + x, q = y / rest.step * rest.width + x / rest.step;
-  screens.forEach((s, metal) => {
-    const pair = [colour.rows[2 * metal], colour.rows[2 * metal + 1]];
+  const {x, y} = view.cursor, rest = colour.rest, q = placeOn(rest, x, y);
+  screens.forEach((s, number) => {
+    const first = colour.firsts[2 * number], p = placeOn(first, x, y);
+    const pair = [colour.rows[2 * number], colour.rows[2 * number + 1]];
     const names = ['fitted', 'literature'];
     let rows = '';
     for (let i = 0; i < 4; ++i) {
@@ -74,9 +74,9 @@ function readOut() {
     });
     s.figure.querySelector('.where').textContent =
       `Pixel ${x * data.step}, ${y * data.step} of the EXR` +
-      (colour.own[p] ? '' : ' (background, the same in both)');
+      (colour.own[y * colour.width + x] ? '' : ' (background, the same in both)');
     s.figure.querySelector('.readout tbody').innerHTML = rows;
-    s.figure.querySelector('.spectrum').innerHTML = spectrumDrawing(metal);
+    s.figure.querySelector('.spectrum').innerHTML = spectrumDrawing(number);
   });
 }
 
