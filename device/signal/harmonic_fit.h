@@ -47,8 +47,9 @@ struct ScanFit {
 // mean so that nothing hangs on a few steps. Covariances follow from each reading's own variance,
 // so they are right whatever the weights. Steps at which a pixel is saturated are left out for it,
 // and the pixel where fewer than 3 distinct azimuths modulo 180 degrees are left, 5 with the 4P
-// harmonic. Throws Error (user) where no pixel could have that many, and where counts, variances
-// or flags are not as many as the spectrometer's pixels. `where` names the scan in messages.
+// harmonic, or where these leave a gap from which the harmonic does not follow (make_factors()).
+// Throws Error (user) where no pixel could have that many, and where counts, variances or flags are
+// not as many as the spectrometer's pixels. `where` names the scan in messages.
 ScanFit fit_scan(const Scan& scan, const SpectrometerInfo& spectrometer,
                  const Calibration& calibration, const ReductionOptions& options,
                  std::vector<std::string>* warnings);

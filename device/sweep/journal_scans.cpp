@@ -14,6 +14,7 @@ namespace {
 
 struct Dark {
     std::vector<double> counts, variance;
+    std::vector<uint8_t> saturated;  // no dark: what is measured against it is not known
 };
 
 class JournalScans {
@@ -25,9 +26,13 @@ class JournalScans {
             Dark mean;
             const double frames = static_cast<double>(dark.frames.size());
             mean.counts.assign(dark.frames.front().counts.size(), 0);
+            mean.saturated.assign(mean.counts.size(), 0);
             for (const Frame& frame : dark.frames) {
                 for (size_t i = 0; i < mean.counts.size(); ++i) {
                     mean.counts[i] += frame.counts[i] / frames;
+                    if (frame.counts[i] >= journal.header->spectrometer.max_counts) {
+                        mean.saturated[i] = 1;
+                    }
                 }
             }
             mean.variance.assign(mean.counts.size(), noise.variance(0) / frames);
@@ -60,7 +65,7 @@ class JournalScans {
         const size_t pixels = dark.counts.size();
         step.counts.assign(pixels, 0);
         step.variance.assign(pixels, 0);
-        step.saturated.assign(pixels, 0);
+        step.saturated = dark.saturated;
         const uint32_t max_counts = journal_.header->spectrometer.max_counts;
         for (const Frame& frame : point.frames) {
             step.time_s += (frame.arrived_s - point.integration_s / 2) / frames;

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "device/sweep/journal_reduction.h"
 
 namespace drude {
 
