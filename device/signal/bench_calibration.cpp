@@ -8,6 +8,7 @@
 #include "device/signal/calibration_fit.h"
 #include "device/signal/harmonic_fit.h"
 #include "device/signal/psi_delta.h"
+#include "device/signal/scan_readings.h"
 #include "materials/scalar.h"
 
 namespace drude {

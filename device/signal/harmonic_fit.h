@@ -19,13 +19,6 @@
 
 namespace drude {
 
-// Counts without their dark, linear in the light. `polynomial` as SpectrometerInfo::nonlinearity.
-struct LinearCounts {
-    double value;
-    double slope;  // of value against counts; 0 and a value of NaN where the polynomial is <= 0
-};
-LinearCounts linear_counts(double counts_less_dark, const std::vector<double>& polynomial);
-
 // Columns of pixels; of those outside the range of wavelengths and those that could not be used
 // (dark, saturated at too many steps) only valid = 0 is set.
 struct ScanFit {
@@ -53,8 +46,5 @@ struct ScanFit {
 ScanFit fit_scan(const Scan& scan, const SpectrometerInfo& spectrometer,
                  const Calibration& calibration, const ReductionOptions& options,
                  std::vector<std::string>* warnings);
-
-// "at 70 degrees, analyser at -45, with the retarder", for messages.
-std::string scan_name(const Scan& scan);
 
 }  // namespace drude

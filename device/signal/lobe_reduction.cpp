@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/numbers.h"
 #include "device/signal/harmonic_fit.h"
+#include "device/signal/scan_readings.h"
 #include "device/signal/wavelength_bins.h"
 
 namespace drude {
