@@ -7,6 +7,7 @@
 #include "device/signal/bench_calibration.h"
 #include "device/signal/calibration_fit.h"
 #include "device/signal/harmonic_fit.h"
+#include "device/signal/scan_readings.h"
 #include "materials/scalar.h"
 
 namespace drude {

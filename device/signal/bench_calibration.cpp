@@ -8,6 +8,7 @@
 #include "device/signal/calibration_fit.h"
 #include "device/signal/harmonic_fit.h"
 #include "device/signal/psi_delta.h"
+#include "device/signal/scan_readings.h"
 #include "materials/scalar.h"
 
 namespace drude {
@@ -143,7 +144,8 @@ Calibration calibrate_straight_through(const std::vector<Scan>& scans,
         std::vector<BinScan> members;
         const std::vector<BinnedFit> points = bin_of(corrected, bin);
         for (size_t i = 0; i < points.size(); ++i) {
-            members.push_back({points[i], straight.retarded_rad[i], false, static_cast<int>(i)});
+            const int number = static_cast<int>(i);
+            members.push_back({points[i], straight.retarded_rad[i], false, number, number});
         }
         if (members.empty()) continue;
         const PsiDelta pair = combine_scans(members, {}, {});

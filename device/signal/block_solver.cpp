@@ -22,6 +22,25 @@ void multiply(const LeastSquares& factor, int columns, const std::vector<double>
     }
 }
 
+// By how much the noise of the 2P harmonic, in its worst direction, is above that which as many
+// even steps give: what the model lacks grows as noise does.
+double noise_growth(const LeastSquares& factor, const std::vector<double>& weights) {
+    const double* cosine = &factor.inverse[cos_2p * factor.rows];
+    const double* sine = &factor.inverse[sin_2p * factor.rows];
+    double aa = 0, ab = 0, bb = 0, count = 0;
+    for (size_t k = 0; k < factor.rows; ++k) {
+        if (!(weights[k] > 0)) continue;
+        aa += cosine[k] * cosine[k];
+        ab += cosine[k] * sine[k];
+        bb += sine[k] * sine[k];
+        count += 1;
+    }
+    return std::sqrt(((aa + bb) / 2 + std::hypot((aa - bb) / 2, ab)) * count / 2);
+}
+
+// A gap of a third of the azimuths comes to 3.4 with the 4P harmonic, one of half of them to 16.
+constexpr double most_growth = 4;
+
 }  // namespace
 
 int distinct_azimuths(const std::vector<double>& radians, const std::vector<double>& weights) {
@@ -52,6 +71,10 @@ Factors make_factors(const Steps& steps, const std::vector<double>& radians,
     if (factors.usable && steps.drift) {
         factors.usable =
             factorise(steps.design, factors.weights, steps.columns + 1, &factors.timed);
+    }
+    if (factors.usable) {
+        factors.usable = noise_growth(steps.drift ? factors.timed : factors.plain,
+                                      factors.weights) <= most_growth;
     }
     return factors;
 }

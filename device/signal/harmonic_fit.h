@@ -19,13 +19,6 @@
 
 namespace drude {
 
-// Counts without their dark, linear in the light. `polynomial` as SpectrometerInfo::nonlinearity.
-struct LinearCounts {
-    double value;
-    double slope;  // of value against counts; 0 and a value of NaN where the polynomial is <= 0
-};
-LinearCounts linear_counts(double counts_less_dark, const std::vector<double>& polynomial);
-
 // Columns of pixels; of those outside the range of wavelengths and those that could not be used
 // (dark, saturated at too many steps) only valid = 0 is set.
 struct ScanFit {
@@ -47,13 +40,11 @@ struct ScanFit {
 // mean so that nothing hangs on a few steps. Covariances follow from each reading's own variance,
 // so they are right whatever the weights. Steps at which a pixel is saturated are left out for it,
 // and the pixel where fewer than 3 distinct azimuths modulo 180 degrees are left, 5 with the 4P
-// harmonic. Throws Error (user) where no pixel could have that many, and where counts, variances
-// or flags are not as many as the spectrometer's pixels. `where` names the scan in messages.
+// harmonic, or where these leave a gap from which the harmonic does not follow (make_factors()).
+// Throws Error (user) where no pixel could have that many, and where counts, variances or flags are
+// not as many as the spectrometer's pixels. `where` names the scan in messages.
 ScanFit fit_scan(const Scan& scan, const SpectrometerInfo& spectrometer,
                  const Calibration& calibration, const ReductionOptions& options,
                  std::vector<std::string>* warnings);
-
-// "at 70 degrees, analyser at -45, with the retarder", for messages.
-std::string scan_name(const Scan& scan);
 
 }  // namespace drude

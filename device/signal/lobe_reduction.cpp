@@ -8,6 +8,7 @@
 #include "base/numbers.h"
 #include "device/signal/harmonic_fit.h"
 #include "device/signal/lamp_drift.h"
+#include "device/signal/scan_readings.h"
 #include "device/signal/wavelength_bins.h"
 
 namespace drude {

@@ -82,15 +82,16 @@ struct Averages {
 Averages average(const std::vector<BinScan>& scans, const RetarderState& retarder,
                  const AzimuthErrors& errors) {
     Averages result;
-    int darks = 0;
+    int darks = 0, stops = 0;
     for (const BinScan& scan : scans) {
         ++(scan.retarder_in ? result.with_retarder : result.without);
         darks = std::max(darks, scan.dark + 1);
+        stops = std::max(stops, scan.stop + 1);
     }
     const bool psi_from_both = retarder.known || result.without == 0;
     const double share_l =
         1.0 / (psi_from_both ? result.with_retarder + result.without : result.without);
-    std::vector<Triple> dark(darks, Triple{});
+    std::vector<Triple> dark(darks, Triple{}), stop(stops, Triple{});
     Triple polariser = {}, analyser = {};
     for (const BinScan& scan : scans) {
         const double a = scan.fit.alpha, b = scan.fit.beta;
@@ -119,9 +120,10 @@ Averages average(const std::vector<BinScan>& scans, const RetarderState& retarde
         polariser = polariser + move.along(-2 * b, 2 * a);
         const Triple turned = {weight_l * 2 / std::sin(2 * scan.analyser_rad), 0, 0};
         analyser = analyser + turned;
-        result.common.add(turned, turned, square(errors.analyser_stop));
+        stop[scan.stop] = stop[scan.stop] + turned;
     }
     for (const Triple& d : dark) result.noise.add(d, d, 1);
+    for (const Triple& s : stop) result.common.add(s, s, square(errors.analyser_stop));
     result.common.add(polariser, polariser, square(errors.polariser_offset));
     result.common.add(analyser, analyser, square(errors.analyser_offset));
     return result;
@@ -157,7 +159,7 @@ PsiDelta combine_scans(const std::vector<BinScan>& scans, const RetarderState& r
         delta[1] = (c1 * cosine / sine - s1) / length;
         delta[2] = -c1 / sine / length;
     } else {
-        const double sigma = std::sqrt(mean.noise.m[1][1]);
+        const double sigma = std::sqrt(mean.noise.m[1][1] + mean.common.m[1][1]);
         if (std::abs(c1) > 1) {
             const bool by_noise = std::abs(c1) - 1 <= 4 * sigma + 1e-12;
             result.state = by_noise ? PsiDeltaState::clamped : PsiDeltaState::impossible;

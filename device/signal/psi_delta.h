@@ -24,6 +24,7 @@ struct BinScan {
     double analyser_rad = 0;  // from p, offset taken off; not along p or s
     bool retarder_in = false;
     int dark = 0;  // scans with the same number share their dark, and its noise
+    int stop = 0;  // and those between which the analyser did not move, its error
 };
 
 struct RetarderState {
@@ -41,7 +42,7 @@ struct AzimuthErrors {
 enum class PsiDeltaState {
     good,
     clamped,     // |cos Delta| above 1 by noise: Delta is set to 0 or 180 degrees
-    impossible,  // |cos Delta| above 1 beyond 4 standard deviations, or |alpha| >= 1
+    impossible,  // beyond 4 standard deviations, stated azimuth errors included, or |alpha| >= 1
     half_wave,   // the retarder is so near to 0 or 180 degrees that it tells nothing
 };
 

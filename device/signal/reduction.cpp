@@ -8,6 +8,7 @@
 #include "base/numbers.h"
 #include "device/signal/harmonic_fit.h"
 #include "device/signal/psi_delta.h"
+#include "device/signal/scan_readings.h"
 #include "device/signal/wavelength_bins.h"
 #include "materials/scalar.h"
 
@@ -69,6 +70,19 @@ std::vector<int> dark_numbers(const std::vector<Scan>& scans, const std::vector<
     return numbers;
 }
 
+// Each time that the analyser came to stand somewhere: scans are in the order of the measurement,
+// and a mount that is asked for the place where it is does not move.
+std::vector<int> analyser_stops(const std::vector<Scan>& scans,
+                                const std::vector<size_t>& members) {
+    std::vector<int> stops;
+    for (size_t g = 0; g < members.size(); ++g) {
+        const bool moved =
+            g == 0 || scans[members[g]].analyser_deg != scans[members[g - 1]].analyser_deg;
+        stops.push_back((g == 0 ? -1 : stops.back()) + (moved ? 1 : 0));
+    }
+    return stops;
+}
+
 void warn(const std::map<double, AngleScans>& angles, const Calibration& calibration,
           std::vector<std::string>* warnings) {
     std::vector<std::string> one_cycle;
@@ -81,7 +95,9 @@ void warn(const std::map<double, AngleScans>& angles, const Calibration& calibra
                                                 count == 1 ? "bin" : "bins", what));
             }
         };
-        say(group.unusable, "left out: no pixel is usable in every scan (dark or saturated)");
+        say(group.unusable,
+            "left out: in a scan no pixels that are neither dark nor saturated surround the "
+            "centre");
         say(group.impossible,
             "left out: |cos Delta| or |alpha| is above 1 by more than noise; see to the azimuths "
             "and the linearity");
@@ -138,8 +154,11 @@ Reduction reduce_scans(const std::vector<Scan>& scans, const SpectrometerInfo& s
                 format_double(angle));
         }
     }
-    std::map<double, std::vector<int>> darks;
-    for (const auto& [angle, group] : angles) darks[angle] = dark_numbers(scans, group.scans);
+    std::map<double, std::vector<int>> darks, stops;
+    for (const auto& [angle, group] : angles) {
+        darks[angle] = dark_numbers(scans, group.scans);
+        stops[angle] = analyser_stops(scans, group.scans);
+    }
     const AzimuthErrors errors = {options.mount_repeatability_deg * degree,
                                   options.analyser_repeatability_deg * degree,
                                   calibration.polariser_offset_sigma_deg * degree,
@@ -158,7 +177,7 @@ Reduction reduce_scans(const std::vector<Scan>& scans, const SpectrometerInfo& s
                 usable = usable && fits[group.scans[g]][bin].usable;
                 members.push_back({fits[group.scans[g]][bin],
                                    (scan.analyser_deg - calibration.analyser_offset_deg) * degree,
-                                   scan.retarder_in, darks[angle][g]});
+                                   scan.retarder_in, darks[angle][g], stops[angle][g]});
             }
             if (!usable) {
                 ++group.unusable;

@@ -51,9 +51,10 @@ struct Reduction {
 // make Delta known over 360 degrees, without them its sign is taken as that of a bare metal (0 to
 // 180) with a warning. Where the calibration does not know the retarder, it is taken for a
 // quarter-wave plate that decides the half of the circle only. Zones (analyser azimuths) are
-// averaged (psi_delta.h). Bins without a usable pixel in every scan, and pairs that no sample gives
-// (|cos Delta| above 1 beyond 4 standard deviations), are left out with a warning; |cos Delta|
-// above 1 by noise becomes 0 or 180 degrees with a warning.
+// averaged (psi_delta.h). Bins whose centre is not surrounded by pixels of use in every scan
+// (wavelength_bins.h), and pairs that no sample gives (|cos Delta| above 1 beyond 4 standard
+// deviations), are left out with a warning; |cos Delta| above 1 by noise becomes 0 or 180 degrees
+// with a warning.
 //
 // depolarization is 1 - P^2 with P^2 = cos^2 2Psi + sin^2 2Psi (cos^2 Delta + sin^2 Delta), the two
 // squares as the two cycles give them, kept within [0, 1]; -1 with one cycle, which cannot see it.

@@ -27,13 +27,19 @@ Covariance jitter_covariance(const ScanFit& fit, double alpha, double beta) {
     return sum;
 }
 
-// Shares by which a polynomial fitted to values at x has its value at 0. False where that would
-// have more than `most` times the variance of the mean, as with few points or points on one side.
+// A pixel is at the bin's centre where it is as near as this, in half steps.
+constexpr double at_centre = 1e-3;
+// Of the value's variance over that of the mean, with equal pixels: a parabola over even pixels has
+// 9/4, over three of them 3; pixels that stand on one side or leave the middle free have more.
+constexpr double most_variance = 3.5;
+
+// Shares by which a polynomial fitted to values at x has its value at 0. False where the points do
+// not hold it, or its variance is above that bound.
 bool polynomial_shares(const std::vector<double>& x, const std::vector<double>& weight, int degree,
-                       double most, std::vector<double>* share) {
+                       std::vector<double>* share) {
     const int n = degree + 1;
-    if (x.size() < static_cast<size_t>(2 * degree + 1)) return false;
-    double moments[9] = {}, at_centre[3] = {1, 0, 0}, sum = 0;
+    if (x.size() < static_cast<size_t>(n)) return false;
+    double moments[9] = {}, at_zero[3] = {1, 0, 0}, sum = 0;
     for (size_t i = 0; i < x.size(); ++i) {
         const double power[3] = {1, x[i], x[i] * x[i]};
         for (int a = 0; a < n; ++a) {
@@ -41,16 +47,42 @@ bool polynomial_shares(const std::vector<double>& x, const std::vector<double>& 
         }
         sum += weight[i];
     }
-    if (!solve_normal_equations(n, moments, at_centre)) return false;
+    if (!solve_normal_equations(n, moments, at_zero)) return false;
     share->resize(x.size());
     double variance = 0;
     for (size_t i = 0; i < x.size(); ++i) {
-        const double factor = at_centre[0] + (n > 1 ? at_centre[1] * x[i] : 0) +
-                              (n > 2 ? at_centre[2] * x[i] * x[i] : 0);
+        const double factor =
+            at_zero[0] + (n > 1 ? at_zero[1] * x[i] : 0) + (n > 2 ? at_zero[2] * x[i] * x[i] : 0);
         (*share)[i] = weight[i] * factor;
         variance += weight[i] * factor * factor;
     }
-    return variance * sum <= most;
+    return variance * sum <= most_variance;
+}
+
+// Pixels of a bin: numbers, places in half steps from its centre, weights.
+struct BinPixels {
+    std::vector<size_t> pixel;
+    std::vector<double> x, weight;
+
+    void add(size_t j, double at, double w) {
+        pixel.push_back(j);
+        x.push_back(at);
+        weight.push_back(w);
+    }
+};
+
+// Those that lie as far from the centre as there are some on both sides, one `spacing` more or
+// less; none where a side has none. So what the parabola leaves out, which is odd about the centre
+// before all else, averages out whatever was lost.
+BinPixels around_centre(const BinPixels& all, double spacing) {
+    BinPixels kept;
+    if (all.x.empty() || all.x.front() > at_centre || all.x.back() < -at_centre) return kept;
+    const double reach = std::max(0.0, std::min(-all.x.front(), all.x.back()));
+    for (size_t i = 0; i < all.x.size(); ++i) {
+        if (std::abs(all.x[i]) > reach + spacing * (1 + at_centre)) continue;
+        kept.add(all.pixel[i], all.x[i], all.weight[i]);
+    }
+    return kept;
 }
 
 void scale(Covariance* covariance, double factor) {
@@ -63,22 +95,35 @@ void scale(Covariance* covariance, double factor) {
 
 BinShares bin_shares(const std::vector<double>& wavelength_nm, const std::vector<double>& weights,
                      double centre_nm, double step_nm) {
-    BinShares result;
     const auto first =
         std::lower_bound(wavelength_nm.begin(), wavelength_nm.end(), centre_nm - step_nm / 2) -
         wavelength_nm.begin();
-    std::vector<double> x, weight;
-    for (auto j = static_cast<size_t>(first);
-         j < wavelength_nm.size() && wavelength_nm[j] < centre_nm + step_nm / 2; ++j) {
-        if (!(weights[j] > 0)) continue;
-        result.pixel.push_back(j);
-        x.push_back((wavelength_nm[j] - centre_nm) / (step_nm / 2));
-        weight.push_back(weights[j]);
+    auto j = static_cast<size_t>(first);
+    const double half = step_nm / 2;
+    size_t pixels = 0;
+    BinPixels all;
+    for (; j < wavelength_nm.size() && wavelength_nm[j] < centre_nm + half; ++j, ++pixels) {
+        if (weights[j] > 0) all.add(j, (wavelength_nm[j] - centre_nm) / half, weights[j]);
     }
-    // Even pixels cost a parabola 9/4 of the mean's variance, and a line nothing.
-    if (!polynomial_shares(x, weight, 2, 3, &result.share) &&
-        !polynomial_shares(x, weight, 1, 1.25, &result.share)) {
-        polynomial_shares(x, weight, 0, 1.5, &result.share);
+    const auto begin = static_cast<size_t>(first);
+    const double spacing = pixels < 2 ? 0
+                                      : (wavelength_nm[j - 1] - wavelength_nm[begin]) / half /
+                                            static_cast<double>(pixels - 1);
+    BinPixels used = around_centre(all, spacing);
+    // What a bin is wide enough for is a matter of its pixels, not of those that are left.
+    const int degree = pixels >= 5 ? 2 : 1;
+    BinShares result;
+    if (polynomial_shares(used.x, used.weight, degree, &result.share) ||
+        // Weights that fall steeply count one side only.
+        polynomial_shares(used.x, std::vector<double>(used.x.size(), 1), degree, &result.share)) {
+        result.pixel = std::move(used.pixel);
+        return result;
+    }
+    result.share.clear();
+    for (size_t i = 0; i < all.x.size(); ++i) {
+        if (std::abs(all.x[i]) > at_centre || !result.pixel.empty()) continue;
+        result.pixel.push_back(all.pixel[i]);
+        result.share.push_back(1);
     }
     return result;
 }

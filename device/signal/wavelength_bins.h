@@ -16,8 +16,12 @@ struct BinShares {
 // Pixels within half a step of `centre_nm`, `weights` (> 0 where a pixel is of use) as many as
 // pixels. A parabola fitted over the bin is read at its centre (Savitzky & Golay 1964, Anal. Chem.
 // 36, 1627), so that neither the spectrum's slope and bend nor a bin that pixels do not fill evenly
-// shift anything; its value is as noisy as the mean of 4/9 of the pixels. Where these are too few
-// or on one side, a line, and at last the mean. Empty where no pixel is of use.
+// shift anything; its value is as noisy as the mean of 4/9 of the pixels. A bin of fewer than five
+// pixels is read by a line. Where pixels of use end before the bin does (a saturated range, the end
+// of the spectrum), as far as they reach on both sides of the centre counts: nothing is
+// extrapolated. Empty where they do not stand on both sides, three or more of them for a parabola
+// and around its middle, but for a pixel at the centre itself (to 1/1000 of half a step), which
+// then is the value.
 BinShares bin_shares(const std::vector<double>& wavelength_nm, const std::vector<double>& weights,
                      double centre_nm, double step_nm);
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "device/device_error.h"
 #include "materials/scalar.h"
 
 namespace drude {
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double lowest_peak = 0.70, target_peak = 0.775, highest_peak = 0.85;
 constexpr double first_try_s = 0.01;
+constexpr double surely_unsaturated = 0.9;  // noise does not take a peak from here to full scale
 constexpr int most_adjustments = 24;
 
 bool same_arms(const PlanPoint& a, const PlanPoint& b) {
@@ -59,6 +61,7 @@ class ExposureSearch {
         driver_.set_integration_time(integration_s_);
         driver_.set(point);
         const Frame frame = driver_.acquire();
+        check_saturation(frame);
         const auto [least, most] = std::minmax_element(frame.counts.begin(), frame.counts.end());
         Reading reading;
         reading.level = *least / max_;
@@ -66,6 +69,21 @@ class ExposureSearch {
         for (const uint32_t count : frame.counts)
             reading.net.push_back(count / max_ - reading.level);
         return reading;
+    }
+
+    double peak(const Frame& frame) const {
+        return *std::max_element(frame.counts.begin(), frame.counts.end()) / max_;
+    }
+
+    // What reads full scale does so again, or the frame was not that of the light.
+    void check_saturation(const Frame& frame) {
+        if (peak(frame) < 1) return;
+        const double again = peak(driver_.acquire());
+        if (again >= surely_unsaturated) return;
+        device_error(Fault::bad_frame,
+                     "{}: a frame reads full scale and the next one of the same light {:.0f} % of "
+                     "it; is the light steady?",
+                     info_.uri, 100 * again);
     }
 
     // Like read(), at a time at which nothing is saturated and something is seen, if there is one.

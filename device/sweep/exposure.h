@@ -33,6 +33,9 @@ struct ExposureChoice {
 // retarder setting where its peak is. With a goniometer that is moved by hand the first angle
 // stands for all, with a warning.
 //
+// A frame that reads full scale is believed when the next one does (to 90 %), too; otherwise a
+// DeviceError (bad_frame) asks for the choice to be made again.
+//
 // Throws Error (outside) where the brightest setting stays dark (less than limits.least_signal) at
 // the longest time, or reads its maximum at the shortest; DeviceError as the parts do.
 ExposureChoice choose_exposure(BenchDriver& driver, const Bench& bench,

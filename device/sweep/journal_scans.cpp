@@ -16,6 +16,7 @@ struct Dark {
     std::vector<double> counts, variance;
     uint32_t group = 0;
     double frames = 0;
+    std::vector<uint8_t> saturated;  // no dark: what is measured against it is not known
 };
 
 // Mean over pixels.
@@ -41,9 +42,13 @@ class JournalScans {
             Dark mean;
             const double frames = static_cast<double>(dark.frames.size());
             mean.counts.assign(dark.frames.front().counts.size(), 0);
+            mean.saturated.assign(mean.counts.size(), 0);
             for (const Frame& frame : dark.frames) {
                 for (size_t i = 0; i < mean.counts.size(); ++i) {
                     mean.counts[i] += frame.counts[i] / frames;
+                    if (frame.counts[i] >= journal.header->spectrometer.max_counts) {
+                        mean.saturated[i] = 1;
+                    }
                 }
             }
             mean.group = group_of(dark.block);
@@ -79,7 +84,7 @@ class JournalScans {
         const size_t pixels = dark.counts.size();
         step.counts.assign(pixels, 0);
         step.variance.assign(pixels, 0);
-        step.saturated.assign(pixels, 0);
+        step.saturated = dark.saturated;
         const uint32_t max_counts = journal_.header->spectrometer.max_counts;
         for (const Frame& frame : point.frames) {
             step.time_s += (frame.arrived_s - point.integration_s / 2) / frames;

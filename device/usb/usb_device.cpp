@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "device/bench_clock.h"
 #include "device/device_error.h"
+#include "device/usb/usb_fault.h"
 #include "device/usb/usb_handles.h"
 #include "device/usb/usb_holder.h"
 #include "device/usb/usb_search.h"
@@ -266,49 +267,8 @@ class LibusbPort : public UsbPort {
         return end;
     }
 
-    // Some hosts report a failed transfer first where a device was unplugged, and take the hub's
-    // word for it a moment later.
-    bool still_listed() const {
-        for (int attempt = 0; attempt < 10; ++attempt) {
-            if (attempt > 0) real_clock().sleep(0.05);
-            std::string problem;
-            const ContextPointer fresh = make_context(&problem);
-            if (!fresh) return true;
-            const std::vector<DevicePointer> devices = list_devices(fresh.get(), &problem);
-            const bool listed =
-                std::any_of(devices.begin(), devices.end(), [&](const DevicePointer& device) {
-                    libusb_device_descriptor descriptor;
-                    libusb_get_device_descriptor(device.get(), &descriptor);
-                    return libusb_get_bus_number(device.get()) == bus_ &&
-                           libusb_get_device_address(device.get()) == address_ &&
-                           descriptor.idVendor == vendor_ && descriptor.idProduct == product_;
-                });
-            if (!listed) return false;
-        }
-        return true;
-    }
-
     [[noreturn]] void raise(TransferEnd end, const std::string& what, size_t done, size_t wanted) {
-        if (end == TransferEnd::failed && !still_listed()) end = TransferEnd::unplugged;
-        const std::string count =
-            done > 0 ? fmt::format(" ({} of {} bytes went over)", done, wanted) : std::string();
-        switch (end) {
-            case TransferEnd::timed_out:
-                device_error(Fault::timeout, "{}: {}: no answer in time{}", name_, what, count);
-            case TransferEnd::interrupted:
-                device_error(Fault::interrupted, "{}: {}: interrupted{}", name_, what, count);
-            case TransferEnd::stalled:
-                device_error(Fault::stall, "{}: {}: the endpoint is halted{}", name_, what, count);
-            case TransferEnd::overflow:
-                device_error(Fault::overflow, "{}: {}: more bytes came than asked for", name_,
-                             what);
-            case TransferEnd::unplugged:
-                device_error(Fault::unplugged, "{}: {}: it was unplugged{}", name_, what, count);
-            case TransferEnd::complete:
-            case TransferEnd::failed:
-                break;
-        }
-        device_error(Fault::io, "{}: {}: the transfer failed{}", name_, what, count);
+        raise_transfer(end, {name_, vendor_, product_, bus_, address_}, what, done, wanted);
     }
 
     [[noreturn]] void raise_control(TransferEnd end, const ControlRequest& request, size_t done,

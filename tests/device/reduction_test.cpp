@@ -427,6 +427,38 @@ TEST(Reduction, CommonSigmaHoldsTheCalibrationsAzimuths) {
     EXPECT_NEAR(stated.common_sigma_delta_deg[0], std::abs(biased.rows[0].delta_deg - 120), 1e-3);
 }
 
+// One zone: between its two cycles, and from angle to angle, the analyser does not move.
+TEST(Reduction, AnAnalyserThatStandsStillHasOneErrorForAllScans) {
+    const auto stated = [](const std::vector<Scan>& scans) {
+        return reduce(scans, with_retarder(90),
+                      [](auto* o) { o->analyser_repeatability_deg = 0.02; })
+            .common_sigma_psi_deg[0];
+    };
+    const Scan bare = oracle_scan({}, 1, 45), retarded = oracle_scan({}, 1, 45, true);
+    const Scan other = oracle_scan({}, 1, -45), other_retarded = oracle_scan({}, 1, -45, true);
+    const double one = stated({bare});
+    EXPECT_NEAR(one, 0.02 * std::sin(2 * 41.3 * oracle_degree), 1e-6);
+    EXPECT_NEAR(stated({bare, retarded}), one, 1e-9);
+    EXPECT_NEAR(stated({bare, other, retarded, other_retarded}), one / 2, 1e-9);
+    EXPECT_NEAR(stated({bare, retarded, other}), one * std::sqrt(4 + 1) / 3, 1e-9);
+}
+
+// Delta near 180: |cos Delta| above 1 by an error that is stated is no reason to leave a row out.
+TEST(Reduction, WhatTheMountsExplainIsNotImpossible) {
+    OracleBench bench;
+    bench.delta_deg = 180;
+    bench.noise = 1e-6;
+    bench.jitter_deg = 0.05;
+    int rows = 0;
+    for (uint64_t seed = 1; seed <= 50; ++seed) {
+        bench.seed = seed;
+        rows += static_cast<int>(reduce({oracle_scan(bench, 1, 45)}, {}, [](auto* o) {
+                                     o->mount_repeatability_deg = 0.05;
+                                 }).rows.size());
+    }
+    EXPECT_EQ(rows, 50);
+}
+
 TEST(Reduction, QualityShowsJitterAndHonestNoise) {
     OracleBench bench;
     bench.noise = 1e-3;
@@ -486,6 +518,24 @@ TEST(Reduction, PixelsWithTooFewStepsAreLeftOut) {
     EXPECT_EQ(r.rows.size(), 2u);
     ASSERT_FALSE(r.warnings.empty());
     EXPECT_NE(r.warnings[0].find("1 bin left out"), std::string::npos) << r.warnings[0];
+}
+
+// Five azimuths in a row are five equations for five unknowns; half of the circle of 2P is not
+// seen, and a little of what the model lacks becomes a lot.
+TEST(Reduction, PixelsWhoseStepsLeaveAGapAreLeftOut) {
+    OracleBench bench;
+    bench.quadratic = 1e-3;
+    Scan scan = oracle_scan(bench, 13, 45);
+    for (size_t j = 0; j < 13; ++j) {
+        for (size_t k = 0; k < scan.steps.size(); ++k) scan.steps[k].saturated[j] = k % 12 >= j;
+    }
+    const Reduction r = reduce({scan});
+    ASSERT_EQ(r.rows.size(), 5u);  // 8 to 12 azimuths
+    for (const MeasurementRow& row : r.rows) {
+        EXPECT_NEAR(row.psi_deg, r.rows.back().psi_deg, 0.02);
+        EXPECT_NEAR(row.delta_deg, r.rows.back().delta_deg, 0.04);
+    }
+    EXPECT_NE(r.warnings[0].find("8 bins left out"), std::string::npos) << r.warnings[0];
 }
 
 void expect_user_error(const std::vector<Scan>& scans, const std::string& words,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -55,29 +56,84 @@ TEST(SmallLeastSquares, NormalEquationsAndTheirInverse) {
     EXPECT_FALSE(solve_normal_equations(2, singular, none));
 }
 
-TEST(WavelengthBins, AParabolaIsReadAtTheCentreAndAMeanWhereItCannotBe) {
+// What shares make of 7 + 3 x + bend x^2, x from 500 nm.
+double value_at_500(const BinShares& shares, const std::vector<double>& nm, double bend) {
+    double sum = 0, one = 0;
+    for (size_t i = 0; i < shares.pixel.size(); ++i) {
+        const double x = nm[shares.pixel[i]] - 500;
+        sum += shares.share[i] * (7 + 3 * x + bend * x * x);
+        one += shares.share[i];
+    }
+    EXPECT_NEAR(one, 1, 1e-13);
+    return sum;
+}
+
+TEST(WavelengthBins, AParabolaIsReadAtTheCentreOrNothing) {
     const std::vector<double> nm = {497.6, 498.3, 499.4, 500.2, 501, 501.8, 502.4, 503};
-    double bend = 0.5;
-    const auto value = [&](const BinShares& shares) {
-        double sum = 0, one = 0;
-        for (size_t i = 0; i < shares.pixel.size(); ++i) {
-            const double x = nm[shares.pixel[i]] - 500;
-            sum += shares.share[i] * (7 + 3 * x + bend * x * x);
-            one += shares.share[i];
-        }
-        EXPECT_NEAR(one, 1, 1e-13);
-        return sum;
-    };
     const BinShares all = bin_shares(nm, {1, 2, 3, 2, 1, 2, 2, 1}, 500, 5);
     EXPECT_EQ(all.pixel.size(), 7u);  // 503 is beyond
-    EXPECT_NEAR(value(all), 7, 1e-11);
-    bend = 0;
-    // Four in the middle: a line.
-    EXPECT_NEAR(value(bin_shares(nm, {0, 1, 1, 1, 1, 0, 0, 1}, 500, 5)), 7, 1e-12);
-    // On one side only: the mean of what is there.
-    EXPECT_NEAR(value(bin_shares(nm, {0, 0, 0, 0, 1, 1, 1, 1}, 500, 5)), 7 + 3 * 5.2 / 3, 1e-11);
+    EXPECT_NEAR(value_at_500(all, nm, 0.5), 7, 1e-11);
+    // Four in the middle are enough; so are three on either side of it.
+    for (const std::vector<double>& weights :
+         {std::vector<double>{0, 1, 1, 1, 1, 0, 0, 1}, {0, 0, 1, 1, 1, 0, 0, 0}}) {
+        const BinShares some = bin_shares(nm, weights, 500, 5);
+        EXPECT_FALSE(some.pixel.empty());
+        EXPECT_NEAR(value_at_500(some, nm, 0.5), 7, 1e-11);
+    }
+    // On one side only, two alone, at the ends alone: nothing is made up.
+    for (const std::vector<double>& weights : {std::vector<double>{0, 0, 0, 0, 1, 1, 1, 1},
+                                               {1, 1, 1, 0, 0, 0, 0, 1},
+                                               {0, 0, 1, 1, 0, 0, 0, 0},
+                                               {1, 1, 0, 0, 0, 1, 1, 0},
+                                               {0, 0, 0, 0, 0, 0, 0, 0}}) {
+        EXPECT_TRUE(bin_shares(nm, weights, 500, 5).pixel.empty());
+    }
     EXPECT_TRUE(bin_shares(nm, {1, 1, 1, 1, 1, 1, 1, 1}, 600, 5).pixel.empty());
-    EXPECT_TRUE(bin_shares(nm, {0, 0, 0, 0, 0, 0, 0, 0}, 500, 5).pixel.empty());
+    // The end of the spectrometer's range.
+    EXPECT_TRUE(bin_shares(nm, {1, 1, 1, 1, 1, 1, 1, 1}, 497, 5).pixel.empty());
+    // Steep weights (the foot of a filter) do not make it one-sided.
+    const BinShares steep = bin_shares(nm, {1, 1, 1, 1, 1, 1e4, 1e8, 1}, 500, 5);
+    EXPECT_NEAR(value_at_500(steep, nm, 0.5), 7, 1e-8);
+}
+
+TEST(WavelengthBins, FewPixelsAreReadByALineAndOneAtTheCentreIsTheValue) {
+    const std::vector<double> three = {498.2, 500.1, 502};
+    EXPECT_NEAR(value_at_500(bin_shares(three, {1, 1, 1}, 500, 5), three, 0), 7, 1e-12);
+    EXPECT_NEAR(value_at_500(bin_shares(three, {1, 0, 1}, 500, 5), three, 0), 7, 1e-12);
+    EXPECT_TRUE(bin_shares(three, {0, 1, 1}, 500, 5).pixel.empty());
+    // The bin holds its lower end, so one of two neighbours.
+    const std::vector<double> centred = {497.5, 500, 502.5};
+    const BinShares shares = bin_shares(centred, {1, 1, 1}, 500, 5);
+    EXPECT_NEAR(value_at_500(shares, centred, 0.5), 7, 1e-12);
+    const std::vector<double> one = {500.001};
+    EXPECT_NEAR(value_at_500(bin_shares(one, {1}, 500, 5), one, 0), 7.003, 1e-12);
+    EXPECT_TRUE(bin_shares({500.01}, {1}, 500, 5).pixel.empty());
+}
+
+// What a parabola leaves out is odd about the centre first: it must not tell where pixels were
+// lost. The spectrum is a step of the width of copper's.
+TEST(WavelengthBins, PixelsThatAreLostOnOneSideShiftNothing) {
+    std::vector<double> nm;
+    for (int j = 0; j < 149; ++j) nm.push_back(490 + 0.1354 * j);
+    const auto read = [&](const BinShares& shares) {
+        double sum = 0;
+        for (size_t i = 0; i < shares.pixel.size(); ++i) {
+            sum += shares.share[i] * std::tanh((nm[shares.pixel[i]] - 500) / 15);
+        }
+        return sum;
+    };
+    int left_out = 0;
+    for (size_t lost = 0; lost < nm.size(); ++lost) {
+        std::vector<double> weights(nm.size(), 1);
+        std::fill_n(weights.begin(), lost, 0);
+        const BinShares shares = bin_shares(nm, weights, 500, 20);
+        left_out += shares.pixel.empty() ? 1 : 0;
+        if (!shares.pixel.empty()) {
+            EXPECT_NEAR(read(shares), 0, 1e-3) << lost;
+        }
+    }
+    EXPECT_GE(left_out, 74);  // all of those whose centre is lost
+    EXPECT_LE(left_out, 76);
 }
 
 }  // namespace

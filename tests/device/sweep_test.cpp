@@ -287,6 +287,129 @@ class ScriptedSpectrometer : public Spectrometer {
     SpectrometerInfo info_;
 };
 
+// The virtual spectrometer, some of whose frames are spoilt by the test.
+class SpoiltSpectrometer : public Spectrometer {
+  public:
+    using Spoil = std::function<void(bool lamp_on, int frame, std::vector<uint32_t>* counts)>;
+    SpoiltSpectrometer(std::shared_ptr<Spectrometer> inner, Spoil spoil)
+        : inner_(std::move(inner)), spoil_(std::move(spoil)) {}
+    const SpectrometerInfo& info() const override { return inner_->info(); }
+    void set_integration_time(double seconds) override { inner_->set_integration_time(seconds); }
+    double integration_time() const override { return inner_->integration_time(); }
+    void set_lamp(bool on) override {
+        lamp_on_ = on;
+        inner_->set_lamp(on);
+    }
+    Frame acquire() override {
+        Frame frame = inner_->acquire();
+        spoil_(lamp_on_, lamp_on_ ? light_++ : dark_++, &frame.counts);
+        return frame;
+    }
+    void recover() override { inner_->recover(); }
+    bool reconnect(double seconds) override { return inner_->reconnect(seconds); }
+
+  private:
+    std::shared_ptr<Spectrometer> inner_;
+    Spoil spoil_;
+    bool lamp_on_ = true;
+    int light_ = 0, dark_ = 0;
+};
+
+SweepOutcome run_spoilt(const std::string& journal, SpoiltSpectrometer::Spoil spoil,
+                        const Recipe& recipe = short_recipe()) {
+    std::filesystem::remove(journal);
+    Bench bench = short_bench();
+    bench.spectrometer = std::make_shared<SpoiltSpectrometer>(bench.spectrometer, std::move(spoil));
+    NoOperator nobody;
+    SweepOptions options;
+    options.journal = journal;
+    return run_sweep(bench, recipe, nobody, options);
+}
+
+TEST(SweepDark, OneThatIsNoneIsTakenAgain) {
+    const TemporaryFolder folder;
+    const Journal whole = run_short_sweep(folder.file("whole.journal"), false).journal;
+    const std::string path = folder.file("a.journal");
+    // A part at full scale; another that is far above what the other frame shows. Dark frames 0
+    // and 1 are stale.
+    for (const uint32_t level : {65535U, 12000U}) {
+        for (const int spoilt : {2, 3}) {
+            const SweepOutcome outcome =
+                run_spoilt(path, [&](bool lamp_on, int frame, std::vector<uint32_t>* counts) {
+                    if (!lamp_on && frame == spoilt) std::fill_n(counts->begin(), 8, level);
+                });
+            EXPECT_EQ(outcome.retries, 1u) << level;
+            expect_same_points(whole, outcome.journal, std::to_string(level));
+        }
+    }
+    // For good: an error, and nothing that would be taken for a dark.
+    expect_error(Cause::outside,
+                 {"virtual:spectrometer", "8 of the 24 pixels of a dark read full scale", "shutter",
+                  "2 retries", "holds 0 of 5", "--resume"},
+                 [&] {
+                     run_spoilt(path, [](bool lamp_on, int, std::vector<uint32_t>* counts) {
+                         if (!lamp_on) std::fill_n(counts->begin(), 8, 65535U);
+                     });
+                 });
+    EXPECT_TRUE(read_journal(path).darks.empty());
+}
+
+// Of another angle, at the same integration time.
+TEST(SweepDark, IsComparedWithThoseBefore) {
+    const TemporaryFolder folder;
+    Recipe recipe = short_recipe();
+    recipe.angles_deg = {60, 70};
+    recipe.dark_frames = 1;
+    const SweepOutcome outcome = run_spoilt(
+        folder.file("a.journal"),
+        [](bool lamp_on, int frame, std::vector<uint32_t>* counts) {
+            // The third of three is the dark of an angle.
+            if (!lamp_on && frame == 5) std::fill_n(counts->begin(), 8, 12000U);
+        },
+        recipe);
+    EXPECT_EQ(outcome.retries, 1u);
+    ASSERT_EQ(outcome.journal.darks.size(), 2u);
+    EXPECT_LT(outcome.journal.darks[1].frames[0].counts[0], 2000u);
+}
+
+TEST(SweepDark, HotPixelsAreLeftOut) {
+    const TemporaryFolder folder;
+    VirtualBenchSettings settings = short_bench_settings();
+    settings.pixels = 512;
+    Bench bench = make_virtual_bench(find_material("Cu-McPeak"), settings);
+    bench.spectrometer = std::make_shared<SpoiltSpectrometer>(
+        bench.spectrometer,
+        [](bool, int, std::vector<uint32_t>* counts) { counts->at(300) = 65535; });
+    NoOperator nobody;
+    SweepOptions options;
+    options.journal = folder.file("a.journal");
+    const SweepOutcome outcome = run_sweep(bench, short_recipe(), nobody, options);
+    EXPECT_EQ(outcome.retries, 1u);
+    const JournalReduction result = reduce_journal(outcome.journal, {});
+    EXPECT_EQ(parse_measurement(result.text, "m").rows.size(), 4u);
+}
+
+TEST(SweepExposure, AFrameAtFullScaleIsBelievedWhenItIsRepeated) {
+    const TemporaryFolder folder;
+    Recipe recipe = short_recipe();
+    recipe.integration_s = 0;
+    const std::string path = folder.file("a.journal");
+    const double usual = run_spoilt(
+                             path, [](bool, int, std::vector<uint32_t>*) {}, recipe)
+                             .journal.exposures.at(0)
+                             .integration_s;
+    for (int spoilt = 1; spoilt < 8; ++spoilt) {
+        const SweepOutcome outcome = run_spoilt(
+            path,
+            [&](bool lamp_on, int frame, std::vector<uint32_t>* counts) {
+                if (lamp_on && frame == spoilt) std::fill(counts->begin(), counts->end(), 65535U);
+            },
+            recipe);
+        EXPECT_LE(outcome.retries, 1u) << spoilt;  // none for a stale frame
+        EXPECT_NEAR(outcome.journal.exposures.at(0).integration_s / usual, 1, 0.02) << spoilt;
+    }
+}
+
 TEST(FreshFrame, DiscardsTheFirstAndWhatBeganBefore) {
     ScriptedSpectrometer spectrometer;
     spectrometer.arrivals = {9.0, 5.12};  // however late the first arrives

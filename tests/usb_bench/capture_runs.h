@@ -31,7 +31,8 @@ struct CaptureResult {
 
 // In a folder of its own below `folder`; `build` is where the programs are. With a reference, the
 // result is compared with it: raw frames bit for bit, Psi and Delta to 1e-9 degrees. Where a part
-// of a frame was saturated, its wavelengths may be missing, and the others be off by 0.05 degrees.
+// of a frame of light was saturated, rows must be those of the reference without the same readings,
+// to 1e-9 degrees, and as near to the sample as the reference's. No dark may be saturated.
 CaptureResult run_capture_cell(const std::string& build, const std::string& folder,
                                const CaptureCell& cell, const CaptureResult* reference);
 

@@ -1,6 +1,7 @@
 // Every fault at every answer of a short sweep, through the program itself and libusb.
 //
-//   fault_matrix FOLDER [--every N] [--sweep-only] [--jobs N] [--kills N] [--seed N] [-o TABLE.md]
+//   fault_matrix FOLDER [--every N] [--sweep-only] [--only FAULT] [--jobs N] [--kills N] [--seed N]
+//     [-o TABLE.md]
 //
 // Each cell is one run of `drude capture` on the virtual bench with one fault. It must end with the
 // right measurement, or with status 3 and one line that names the device; then `drude capture
@@ -34,7 +35,7 @@ namespace drude {
 namespace {
 
 struct MatrixOptions {
-    std::string folder, table;
+    std::string folder, table, only;
     uint64_t every = 1, jobs = 2, kills = 0, seed = 1;
     bool sweep_only = false;
 };
@@ -160,6 +161,8 @@ MatrixOptions parse(const std::vector<std::string>& words) {
             options.seed = count(++i);
         } else if (words[i] == "--sweep-only") {
             options.sweep_only = true;
+        } else if (words[i] == "--only" && i + 1 < words.size()) {
+            options.only = words[++i];
         } else if (words[i] == "-o" && i + 1 < words.size()) {
             options.table = words[++i];
         } else if (options.folder.empty() && words[i].rfind("-", 0) != 0) {
@@ -190,6 +193,7 @@ int run(const MatrixOptions& options) {
     for (const usb_bench::FaultKind kind : usb_bench::all_fault_kinds()) {
         if (kind == usb_bench::FaultKind::kill) continue;
         const std::string word = usb_bench::fault_word(kind);
+        if (!options.only.empty() && word != options.only) continue;
         for (uint64_t i = options.sweep_only ? sweep_begin : 0; i < answers.size(); ++i) {
             const std::vector<std::string>& kinds = answers[i].kinds;
             if (std::find(kinds.begin(), kinds.end(), word) == kinds.end()) continue;
