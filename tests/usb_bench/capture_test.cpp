@@ -84,7 +84,13 @@ TEST(UsbBench, TwoSpectrometersWithoutANameAreAmbiguous) {
     // Identical ones that have no serial number at all cannot be told apart either.
     run = run_on_bench(folder, mounts + "--device ooi: --device ooi:", capture + "m.csv");
     EXPECT_EQ(run.status, 2);
-    expect_words(run.err, {"2 devices fit"});
+    expect_words(run.err, {"2 devices fit", "no serial number tells them apart", "unplug",
+                           "on bus 001, device 005", "on bus 001, device 006"});
+    EXPECT_EQ(run.err.find("say which one"), std::string::npos) << run.err;
+    // One that can be named beside one that cannot.
+    run = run_on_bench(folder, mounts + "--device ooi:SN1 --device ooi:", capture + "m.csv");
+    EXPECT_EQ(run.status, 2);
+    expect_words(run.err, {"say which one: ooi:SN1;", "unplug all of these but", "device 006"});
     // Named, it is opened though another one like it is there: never by its place in a list.
     prepare(folder);
     run = run_on_bench(folder, mounts + "--device ooi:SN2 --device ooi:USB4C00001",
