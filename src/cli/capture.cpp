@@ -63,6 +63,20 @@ Recipe make_recipe(const CaptureOptions& options, const OptionSet& set) {
     return recipe;
 }
 
+// Whoever is asked answers with a line break below the picture.
+class AskBelowPlot : public TerminalOperator {
+  public:
+    AskBelowPlot(bool confirmed, std::shared_ptr<LivePlot> plot)
+        : TerminalOperator(confirmed), plot_(std::move(plot)) {}
+    void ask(const std::string& request) override {
+        TerminalOperator::ask(request);
+        plot_->begin_anew();
+    }
+
+  private:
+    std::shared_ptr<LivePlot> plot_;
+};
+
 // m.csv is measured through m.journal.
 std::string journal_beside(const std::string& output) {
     return std::filesystem::path(output).replace_extension(".journal").string();
@@ -89,10 +103,10 @@ int run_capture(const CaptureOptions& options, const OptionSet& set, const Commo
     if (!options.calibration.empty()) read_calibration(options.calibration);
 
     catch_interrupts();
-    const auto person = std::make_shared<TerminalOperator>(options.yes);
+    const auto plot = std::make_shared<LivePlot>(common.quiet);
+    const auto person = std::make_shared<AskBelowPlot>(options.yes, plot);
     Bench bench = open_bench(options.instrument, recipe.seed, person);
     what.calibration = options.calibration.empty() ? bench.calibration : options.calibration;
-    LivePlot plot(common.quiet);
     std::optional<Progress> progress;
     size_t shown = 0;
     SweepOptions sweep;
@@ -105,10 +119,14 @@ int run_capture(const CaptureOptions& options, const OptionSet& set, const Commo
         if (done > shown) progress->step(done - shown);
         shown = done;
     };
-    sweep.observer.message = [](const std::string& text) {
-        fmt::print(stderr, "\r\033[Kdrude: {}\n", text);
+    sweep.observer.message = [&](const std::string& text) {
+        // Over the progress bar. Not fmt::print, which throws where stderr cannot be written: the
+        // sweep goes on.
+        const char* const clear = can_redraw_stderr() && !common.quiet ? "\r\033[K" : "";
+        std::fputs(fmt::format("{}drude: {}\n", clear, text).c_str(), stderr);
+        plot->begin_anew();
     };
-    sweep.observer.scan_finished = [&](const Journal& so_far) { plot.draw(so_far); };
+    sweep.observer.scan_finished = [&](const Journal& so_far) { plot->draw(so_far); };
     const SweepOutcome outcome = run_sweep(bench, recipe, *person, sweep);
     progress.reset();
     if (outcome.stopped) {
