@@ -34,14 +34,15 @@ namespace {
 
 constexpr int left_something = 125, hung = 124;
 
-std::unique_ptr<VirtualDevice> make_device(const DeviceOption& option, double move_s,
+std::unique_ptr<VirtualDevice> make_device(const DeviceOption& option, const BenchOptions& options,
                                            OpticalBench& bench, FaultPlan& faults) {
+    const double move_s = options.move_s;
     if (option.scheme == "ooi") return std::make_unique<OoiDevice>(option.serial, bench, faults);
     if (option.scheme == "obp") return std::make_unique<ObpDevice>(option.serial, bench, faults);
     if (option.scheme == "ell") {
-        return std::make_unique<ElliptecBus>(
-            option.serial, std::vector<Role>{Role::polariser, Role::analyser, Role::retarder},
-            move_s, bench, faults);
+        std::vector<Role> roles{Role::polariser};
+        if (!options.fixed_analyser_deg) roles = {Role::polariser, Role::analyser, Role::retarder};
+        return std::make_unique<ElliptecBus>(option.serial, roles, move_s, bench, faults);
     }
     if (option.scheme == "apt-sample" || option.scheme == "apt-arm") {
         const Role role = option.scheme == "apt-arm" ? Role::detector_arm : Role::sample_stage;
@@ -68,8 +69,12 @@ void write_bench_file(const BenchOptions& options) {
     if (const DeviceOption* device = find("ell")) {
         const std::string uri = "ell:" + device->serial;
         bench["polariser"] = {{"rotator", uri + "/0"}};
-        bench["analyser"] = {{"rotator", uri + "/1"}};
-        bench["retarder"] = {{"rotator", uri + "/2"}, {"in_deg", 0}, {"out_deg", 90}};
+        if (options.fixed_analyser_deg) {
+            bench["analyser"] = {{"fixed_deg", *options.fixed_analyser_deg}};
+        } else {
+            bench["analyser"] = {{"rotator", uri + "/1"}};
+            bench["retarder"] = {{"rotator", uri + "/2"}, {"in_deg", 0}, {"out_deg", 90}};
+        }
     }
     const DeviceOption *sample = find("apt-sample"), *arm = find("apt-arm");
     if (sample != nullptr && arm != nullptr) {
@@ -152,9 +157,13 @@ int work(const BenchOptions& options) {
         has_arms = has_arms || device.scheme == "apt-sample";
     }
     if (!has_arms) optics.fix_arms(options.incidence_deg);
+    if (options.fixed_analyser_deg) {
+        optics.set(Role::analyser, *options.fixed_analyser_deg);
+        optics.set(Role::retarder, 90);
+    }
     std::vector<std::unique_ptr<VirtualDevice>> devices;
     for (const DeviceOption& device : options.devices) {
-        devices.push_back(make_device(device, options.move_s, optics, faults));
+        devices.push_back(make_device(device, options, optics, faults));
     }
     UsbTestbed bed;
     for (size_t i = 0; i < devices.size(); ++i) {
