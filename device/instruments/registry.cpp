@@ -134,12 +134,13 @@ std::string instrument_capabilities(const std::string& scheme, uint16_t vendor, 
     return {};
 }
 
-std::shared_ptr<Spectrometer> open_spectrometer(const std::string& uri) {
+std::shared_ptr<Spectrometer> open_spectrometer(const std::string& uri,
+                                                const ScpiCommands& commands) {
     const InstrumentUri parsed = parse_for(uri, "spectrometer");
     std::shared_ptr<UsbPort> port = open_usb(target_of(parsed));
     if (parsed.scheme == "ooi") return open_ooi(std::move(port));
     if (parsed.scheme == "obp") return open_obp(std::move(port));
-    return open_scpi_spectrometer(std::move(port));
+    return open_scpi_spectrometer(std::move(port), commands);
 }
 
 std::shared_ptr<Rotator> open_rotator(const std::string& uri) {
@@ -148,8 +149,8 @@ std::shared_ptr<Rotator> open_rotator(const std::string& uri) {
     return open_apt(open_usb(target_of(parsed)));
 }
 
-std::shared_ptr<PsiDeltaHead> open_head(const std::string& uri) {
-    return open_scpi_head(open_usb(target_of(parse_for(uri, "head"))));
+std::shared_ptr<PsiDeltaHead> open_head(const std::string& uri, const ScpiCommands& commands) {
+    return open_scpi_head(open_usb(target_of(parse_for(uri, "head"))), commands);
 }
 
 }  // namespace drude

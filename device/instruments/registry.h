@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "device/instruments/scpi_commands.h"
 #include "device/psi_delta_head.h"
 #include "device/rotator.h"
 #include "device/spectrometer.h"
@@ -47,9 +48,11 @@ std::string instrument_capabilities(const std::string& scheme, uint16_t vendor, 
 // and no serial says which, listing theirs; (outside) where there is none, where it is busy or not
 // permitted, with what to do about it (the udev rule, who holds it); DeviceError where it does not
 // answer as it should. Mounts on one Elliptec bus share its USB port, whatever the order in which
-// they are opened. To be called from one thread.
-std::shared_ptr<Spectrometer> open_spectrometer(const std::string& uri);
+// they are opened. `commands` are for instruments of "usbtmc"; others have none. To be called from
+// one thread.
+std::shared_ptr<Spectrometer> open_spectrometer(const std::string& uri,
+                                                const ScpiCommands& commands = {});
 std::shared_ptr<Rotator> open_rotator(const std::string& uri);
-std::shared_ptr<PsiDeltaHead> open_head(const std::string& uri);
+std::shared_ptr<PsiDeltaHead> open_head(const std::string& uri, const ScpiCommands& commands = {});
 
 }  // namespace drude

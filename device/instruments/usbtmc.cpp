@@ -153,7 +153,8 @@ void Usbtmc::back_in_step(uint8_t tag, bool in, Fault fault) {
 
 void Usbtmc::drain_in(Deadline deadline) {
     std::vector<uint8_t> buffer(64 * port_->packet_size(in_));
-    for (;;) {
+    // Also where it sends faster than it is read.
+    while (std::chrono::steady_clock::now() < deadline) {
         try {
             if (port_->read(in_, buffer, deadline) < buffer.size()) return;
         } catch (const DeviceError& error) {

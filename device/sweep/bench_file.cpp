@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "device/sweep/scpi_file.h"
 #include "materials/json_tree.h"
 
 namespace drude {
@@ -110,6 +111,18 @@ void read_virtual(const JsonValue& value, const std::string& text, BenchFile* fi
         parse_virtual_bench_settings(settings, file->path + ", 'virtual.settings'");
 }
 
+void read_scpi(const JsonValue& root, const std::string& instrument, const std::string& text,
+               BenchFile* file) {
+    if (!root.has("scpi")) return;
+    const JsonValue value = root.at("scpi");
+    if (!instrument.starts_with("usbtmc:")) {
+        user_error_at(value.place(), "{} is for instruments of the scheme usbtmc:, found {}",
+                      value.shown(), instrument);
+    }
+    file->scpi = read_scpi_commands(value);
+    file->scpi_json = nlohmann::json::parse(text)["scpi"].dump();
+}
+
 void check_distinct(const BenchFile& file) {
     std::set<std::string> used;
     for (const std::string& uri :
@@ -129,7 +142,7 @@ BenchFile parse_bench_file(const std::string& json, const std::string& path) {
     const JsonValue root(document);
     const std::vector<std::string> keys = {"format",      "name",     "spectrometer", "polariser",
                                            "analyser",    "retarder", "goniometer",   "head",
-                                           "calibration", "virtual"};
+                                           "calibration", "virtual",  "scpi"};
     root.allow_keys(keys);
     const JsonValue format = root.at("format");
     if (format.string() != format_name) {
@@ -151,8 +164,9 @@ BenchFile parse_bench_file(const std::string& json, const std::string& path) {
     }
     if (root.has("goniometer")) read_goniometer(root.at("goniometer"), &file);
     if (root.has("head")) {
-        root.allow_keys({"format", "name", "head", "goniometer"});
+        root.allow_keys({"format", "name", "head", "goniometer", "scpi"});
         file.head = root.at("head").string();
+        read_scpi(root, file.head, json, &file);
         check_distinct(file);
         return file;
     }
@@ -161,6 +175,7 @@ BenchFile parse_bench_file(const std::string& json, const std::string& path) {
                       "the bench has no 'spectrometer' (nor a 'head', nor is it 'virtual')");
     }
     file.spectrometer = root.at("spectrometer").string();
+    read_scpi(root, file.spectrometer, json, &file);
     file.polariser = read_rotator(root.at("polariser"));
     file.analyser = read_analyser(root.at("analyser"));
     if (root.has("retarder")) read_retarder(root.at("retarder"), &file);

@@ -12,7 +12,8 @@
 // An analyser may be {"fixed_deg": 45}; a retarder "manual", or be left out; a goniometer "manual",
 // or {"fixed_deg": 70}. Instead of all parts there may be "head": "usbtmc:VID:PID:SERIAL" (with or
 // without a goniometer), or "virtual": {"material": "Cu-McPeak", "settings": {...}} with the keys
-// of VirtualBenchSettings. File names in it are taken from its own folder.
+// of VirtualBenchSettings. File names in it are taken from its own folder. A head, or a
+// spectrometer of "usbtmc:", may have "scpi": {...} with the commands that it knows (scpi_file.h).
 #pragma once
 
 #include <cstdint>
@@ -21,6 +22,7 @@
 #include <string>
 
 #include "device/bench.h"
+#include "device/instruments/scpi_commands.h"
 #include "device/sweep/operator.h"
 #include "device/virtual/virtual_bench.h"
 
@@ -36,6 +38,8 @@ struct AxisSetting {
 struct BenchFile {
     std::string path, name;
     std::string spectrometer, head;
+    ScpiCommands scpi;
+    std::string scpi_json;  // what the file says of them, canonical; empty: nothing
     AxisSetting polariser, analyser;
     bool has_retarder = false;
     std::string retarder_rotator;  // empty while there is one: by hand

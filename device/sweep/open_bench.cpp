@@ -68,11 +68,11 @@ void open_arms(const BenchFile& file, std::shared_ptr<Operator> person, ordered_
     *description = {{"sample", sample_description}, {"arm", arm_description}};
 }
 
-Bench open_head_bench(const std::string& uri) {
+Bench open_head_bench(const std::string& uri, const ScpiCommands& commands) {
     Bench bench;
     bench.name = uri;
     bench.clock = machine_clock();
-    bench.head = open_head(uri);
+    bench.head = open_head(uri, commands);
     bench.notes = {{"instrument", bench.head->identity()}};
     bench.description = ordered_json{{"head", bench.head->identity()}}.dump();
     return bench;
@@ -82,11 +82,11 @@ Bench open_parts(const BenchFile& file, std::shared_ptr<Operator> person) {
     Bench bench;
     ordered_json description = ordered_json::object();
     if (!file.head.empty()) {
-        bench = open_head_bench(file.head);
+        bench = open_head_bench(file.head, file.scpi);
         description["head"] = bench.head->identity();
     } else {
         bench.clock = machine_clock();
-        bench.spectrometer = open_spectrometer(file.spectrometer);
+        bench.spectrometer = open_spectrometer(file.spectrometer, file.scpi);
         const SpectrometerInfo& info = bench.spectrometer->info();
         description["spectrometer"] = {
             {"uri", info.uri}, {"model", info.model}, {"serial", info.serial}};
@@ -105,6 +105,8 @@ Bench open_parts(const BenchFile& file, std::shared_ptr<Operator> person) {
         }
         bench.notes = {{"instrument", fmt::format("{} ({})", info.model, info.uri)}};
     }
+    // Another command may measure something else.
+    if (!file.scpi_json.empty()) description["scpi"] = file.scpi_json;
     if (file.arms != BenchFile::Arms::none) {
         open_arms(file, std::move(person), &description["goniometer"], &bench);
     }
@@ -170,7 +172,7 @@ Bench open_bench(const std::string& instrument, uint64_t seed, std::shared_ptr<O
     }
     const InstrumentUri uri = parse_instrument_uri(instrument);
     if (uri.scheme != "usbtmc") needs_a_bench(uri, instrument);
-    return open_head_bench(instrument);
+    return open_head_bench(instrument, {});
 }
 
 }  // namespace drude

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/progress.h"
 
 namespace drude {
 
@@ -18,7 +19,9 @@ void TerminalOperator::ask(const std::string& request) {
             "terminal, or add --yes where every such thing is seen to without being asked",
             request);
     }
-    std::fputs(fmt::format("\r\033[KPlease {}, then press Enter: ", request).c_str(), stderr);
+    // Over the progress bar, where there is one.
+    const char* const clear = can_redraw_stderr() ? "\r\033[K" : "";
+    std::fputs(fmt::format("{}Please {}, then press Enter: ", clear, request).c_str(), stderr);
     std::fflush(stderr);
     for (;;) {
         pollfd input{STDIN_FILENO, POLLIN, 0};

@@ -148,29 +148,35 @@ class LibusbPort : public UsbPort {
         }
         libusb_context* context = context_.get();
         adopt(find_device(context, target_,
-                          [&](UsbCandidate& candidate) { return ask_serial(context, candidate); }));
+                          [&](UsbCandidate& candidate) { ask_serial(context, candidate); }));
     }
 
-    // Claims the device, asks, and gives its handle back.
-    std::string ask_serial(libusb_context* context, UsbCandidate& candidate) const {
-        if (!target_.ask_serial) return {};
+    // Claims the device, asks, and gives its handle back. A device that is busy or does not answer
+    // keeps no other from being found.
+    void ask_serial(libusb_context* context, UsbCandidate& candidate) const {
+        if (!target_.ask_serial) return;
         try {
             LibusbPort port(context, target_, std::move(candidate));
-            const auto give_back = [&] {
-                libusb_release_interface(port.handle_.get(), port.interface_.number);
-                candidate.handle = std::move(port.handle_);
-                candidate.device = std::move(port.device_);
-            };
-            std::string serial;
             try {
-                serial = target_.ask_serial(port);
-            } catch (const DeviceError&) {
-                // A device that does not answer keeps no other from being found.
+                candidate.serial = target_.ask_serial(port);
+                candidate.serial_problem.clear();
+            } catch (const DeviceError& error) {
+                if (error.fault() != Fault::unplugged) candidate.serial_problem = error.message();
             }
-            give_back();
-            return serial;
-        } catch (const Error&) {
-            return {};  // busy: it may still be the only one that fits
+            libusb_release_interface(port.handle_.get(), port.interface_.number);
+            if (!port.stuck_.empty()) {
+                // The kernel writes into their buffers until the handle is closed.
+                port.handle_.reset();
+                libusb_device_handle* fresh = nullptr;
+                candidate.open_status = libusb_open(port.device_.get(), &fresh);
+                port.handle_.reset(fresh);
+            }
+            candidate.handle = std::move(port.handle_);
+            candidate.device = std::move(port.device_);
+        } catch (const NoSuchDevice&) {
+            // It has just left.
+        } catch (const Error& error) {
+            candidate.serial_problem = error.message();
         }
     }
 

@@ -95,10 +95,16 @@ ChosenInterface choose_interface(libusb_device* device, const std::string& schem
     return first;
 }
 
-std::string read_string(libusb_device_handle* handle, uint8_t index) {
+std::string read_string(libusb_device_handle* handle, uint8_t index, int* status) {
+    *status = 0;
     if (index == 0) return {};
     unsigned char buffer[256];
-    const int length = libusb_get_string_descriptor_ascii(handle, index, buffer, sizeof buffer);
+    int length = 0;
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        length = libusb_get_string_descriptor_ascii(handle, index, buffer, sizeof buffer);
+        if (length >= 0 || length == LIBUSB_ERROR_NO_DEVICE) break;
+    }
+    if (length < 0) *status = length;
     std::string text;
     for (int i = 0; i < length; ++i) {
         // Devices do send control characters; a terminal should not see them.

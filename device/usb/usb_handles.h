@@ -60,7 +60,8 @@ struct ChosenInterface {
 // endpoints where there is neither.
 ChosenInterface choose_interface(libusb_device* device, const std::string& scheme);
 
-// A string descriptor as printable ASCII, '?' for everything else; empty for index 0.
-std::string read_string(libusb_device_handle* handle, uint8_t index);
+// A string descriptor as printable ASCII, '?' for everything else; empty for index 0. A read that
+// fails is tried once more; then the string is empty. *status: libusb's error, or 0.
+std::string read_string(libusb_device_handle* handle, uint8_t index, int* status);
 
 }  // namespace drude

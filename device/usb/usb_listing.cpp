@@ -29,9 +29,14 @@ UsbDevice describe(libusb_device* device) {
         return result;
     }
     const HandlePointer handle(raw);
-    result.manufacturer = read_string(handle.get(), descriptor.iManufacturer);
-    result.product_name = read_string(handle.get(), descriptor.iProduct);
-    result.serial = read_string(handle.get(), descriptor.iSerialNumber);
+    int ignored = 0, failed = 0;
+    result.manufacturer = read_string(handle.get(), descriptor.iManufacturer, &ignored);
+    result.product_name = read_string(handle.get(), descriptor.iProduct, &ignored);
+    result.serial = read_string(handle.get(), descriptor.iSerialNumber, &failed);
+    if (failed != 0) {
+        result.problem =
+            fmt::format("its serial number could not be read ({})", libusb_strerror(failed));
+    }
     result.uri = instrument_uri(result.family.scheme, result.vendor, result.product, result.serial);
     return result;
 }

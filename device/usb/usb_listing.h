@@ -18,7 +18,8 @@ struct UsbDevice {
     std::string uri;          // by which it is opened; empty where nothing here can open it
     bool high_speed = false;  // 480 Mbit/s or more
     bool permitted = true;    // false: the system does not let this user open it
-    std::string problem;      // why it could not be opened, in words; empty where it could
+    // Why it could not be opened, or its serial number not read, in words; or empty.
+    std::string problem;
 };
 
 struct UsbListing {

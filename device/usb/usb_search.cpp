@@ -42,7 +42,10 @@ std::vector<UsbCandidate> list_candidates(libusb_context* context, const UsbTarg
         candidate.open_status = libusb_open(device.get(), &raw);
         if (candidate.open_status == 0) {
             candidate.handle.reset(raw);
-            candidate.serial = read_string(raw, descriptor.iSerialNumber);
+            int failed = 0;
+            candidate.serial = read_string(raw, descriptor.iSerialNumber, &failed);
+            if (failed == LIBUSB_ERROR_NO_DEVICE) continue;  // it has just left
+            if (failed != 0) candidate.serial_problem = libusb_strerror(failed);
         }
         candidate.device = std::move(device);
         candidates.push_back(std::move(candidate));
@@ -60,6 +63,50 @@ std::vector<std::string> uris_of(const UsbTarget& target,
     std::vector<std::string> uris;
     for (const UsbCandidate& candidate : candidates) uris.push_back(uri_of(target, candidate));
     return uris;
+}
+
+// "Ocean Optics USB4000 / Flame-T on bus 001, device 004".
+std::string placed(const UsbCandidate& candidate) {
+    return fmt::format("{} on bus {:03}, device {:03}", candidate.family_name, candidate.bus,
+                       candidate.address);
+}
+
+[[noreturn]] void serial_unknown(const UsbTarget& target, const UsbCandidate& candidate) {
+    outside_error(
+        "{} may be the one with the serial number {}, or not: its own could not be read ({}); "
+        "unplug it, plug it in again, and try again",
+        placed(candidate), target.serial, candidate.serial_problem);
+}
+
+// A serial number chooses among those that differ in it; the others have to be alone.
+[[noreturn]] void several_fit(const UsbTarget& target,
+                              const std::vector<const UsbCandidate*>& candidates) {
+    std::vector<std::string> named, nameless;
+    for (const UsbCandidate* one : candidates) {
+        const auto same =
+            std::count_if(candidates.begin(), candidates.end(),
+                          [&](const UsbCandidate* other) { return other->serial == one->serial; });
+        if (!one->serial.empty() && same == 1) {
+            named.push_back(uri_of(target, *one));
+            continue;
+        }
+        nameless.push_back(placed(*one));
+        if (!one->serial_problem.empty()) {
+            nameless.back() +=
+                fmt::format(" (its serial number could not be read: {})", one->serial_problem);
+        }
+    }
+    std::string message = fmt::format("{} devices fit '{}:{}' ({})", candidates.size(),
+                                      target.scheme, target.serial, target.what);
+    if (!named.empty()) message += fmt::format("; say which one: {}", fmt::join(named, ", "));
+    if (!nameless.empty()) {
+        message += fmt::format(
+            "; no serial number tells {} apart: unplug all of these but the one that is meant{}: "
+            "{}",
+            named.empty() ? "them" : "some of them", named.empty() ? "" : ", or name another",
+            fmt::join(nameless, ", "));
+    }
+    user_error("{}", message);
 }
 
 [[noreturn]] void none_fits(const UsbTarget& target, const std::vector<UsbCandidate>& candidates,
@@ -96,7 +143,7 @@ std::vector<std::string> uris_of(const UsbTarget& target,
 }  // namespace
 
 UsbCandidate find_device(libusb_context* context, const UsbTarget& target,
-                         const std::function<std::string(UsbCandidate&)>& ask) {
+                         const std::function<void(UsbCandidate&)>& ask) {
     std::vector<std::string> others;
     std::vector<UsbCandidate> candidates = list_candidates(context, target, &others);
     if (candidates.empty()) none_fits(target, candidates, others);
@@ -112,7 +159,7 @@ UsbCandidate find_device(libusb_context* context, const UsbTarget& target,
     // Ask only where a descriptor's silence leaves open which device is meant.
     if (meant.size() != 1) {
         for (UsbCandidate& candidate : candidates) {
-            if (candidate.handle && candidate.serial.empty()) candidate.serial = ask(candidate);
+            if (candidate.handle && candidate.serial.empty()) ask(candidate);
         }
         meant = with_serial();
     }
@@ -125,17 +172,13 @@ UsbCandidate find_device(libusb_context* context, const UsbTarget& target,
         // A device that may not be opened keeps its serial number to itself.
         for (const UsbCandidate& candidate : candidates) {
             if (!candidate.handle) cannot_open(target, candidate);
+            if (!candidate.serial_problem.empty()) serial_unknown(target, candidate);
         }
         none_fits(target, candidates, others);
     }
-    if (!target.serial.empty()) {
-        user_error(
-            "{} devices have the serial number {} ({}); unplug all of them but the one that is "
-            "meant",
-            meant.size(), target.serial, target.what);
-    }
-    user_error("{} devices fit '{}:' ({}); say which one: {}", meant.size(), target.scheme,
-               target.what, fmt::join(uris_of(target, candidates), ", "));
+    std::vector<const UsbCandidate*> all;
+    for (const size_t i : meant) all.push_back(&candidates[i]);
+    several_fit(target, all);
 }
 
 std::string shown_device(const std::string& scheme, const UsbCandidate& candidate) {

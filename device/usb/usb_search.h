@@ -18,8 +18,9 @@ struct UsbCandidate {
     int open_status = 0;  // of libusb_open
     uint16_t vendor = 0, product = 0;
     int bus = 0, address = 0;
-    std::string serial;       // of its descriptor
-    std::string family_name;  // "Ocean Optics USB4000 / Flame-T"
+    std::string serial;          // of its descriptor
+    std::string serial_problem;  // why that could not be read, in words; or empty
+    std::string family_name;     // "Ocean Optics USB4000 / Flame-T"
 };
 
 // Nothing fits: waiting may help.
@@ -29,10 +30,10 @@ class NoSuchDevice : public Error {
 };
 
 // The one device that is meant; throws as open_usb(). `ask` is called for a candidate whose
-// descriptor has no serial number where that is what decides, and returns what it found (empty:
-// none).
+// descriptor gives no serial number where that is what decides, and fills in `serial` (empty: it
+// has none) and `serial_problem`.
 UsbCandidate find_device(libusb_context* context, const UsbTarget& target,
-                         const std::function<std::string(UsbCandidate&)>& ask);
+                         const std::function<void(UsbCandidate&)>& ask);
 
 // "Ocean Optics USB4000 / Flame-T (ooi:USB4C00001)".
 std::string shown_device(const std::string& scheme, const UsbCandidate& candidate);

@@ -11,15 +11,10 @@
 
 namespace drude {
 
-namespace {
-
-// A bar needs a terminal that can go back to the start of a line.
-bool draws_bars() {
+bool can_redraw_stderr() {
     const char* kind = std::getenv("TERM");
     return isatty(STDERR_FILENO) != 0 && kind != nullptr && std::strcmp(kind, "dumb") != 0;
 }
-
-}  // namespace
 
 using Clock = std::chrono::steady_clock;
 
@@ -34,7 +29,7 @@ Progress::Progress(std::string title, size_t total, bool quiet, std::chrono::mil
     : title_(std::move(title)),
       total_(total),
       quiet_(quiet),
-      terminal_(draws_bars()),
+      terminal_(can_redraw_stderr()),
       period_(terminal_ ? std::chrono::milliseconds(100) : period),
       start_(Clock::now()),
       printed_(start_) {}

@@ -34,6 +34,10 @@ class Progress {
     std::chrono::steady_clock::time_point start_, printed_;
 };
 
+// Whether stderr is a terminal that can go back over what it shows: on anything else ("dumb"
+// terminals included) escape sequences are litter.
+bool can_redraw_stderr();
+
 // "1:02:03", "2:03", "4 s".
 std::string format_duration(double seconds);
 

@@ -64,6 +64,20 @@ Recipe make_recipe(const CaptureOptions& options, const OptionSet& set) {
     return recipe;
 }
 
+// Whoever is asked answers with a line break below the picture.
+class AskBelowPlot : public TerminalOperator {
+  public:
+    AskBelowPlot(bool confirmed, std::shared_ptr<LivePlot> plot)
+        : TerminalOperator(confirmed), plot_(std::move(plot)) {}
+    void ask(const std::string& request) override {
+        TerminalOperator::ask(request);
+        plot_->begin_anew();
+    }
+
+  private:
+    std::shared_ptr<LivePlot> plot_;
+};
+
 // m.csv is measured through m.journal.
 std::string journal_beside(const std::string& output) {
     return std::filesystem::path(output).replace_extension(".journal").string();
@@ -90,13 +104,13 @@ int run_capture(const CaptureOptions& options, const OptionSet& set, const Commo
     if (!options.calibration.empty()) read_calibration(options.calibration);
 
     catch_interrupts();
-    const auto person = std::make_shared<TerminalOperator>(options.yes);
+    const auto plot = std::make_shared<LivePlot>(common.quiet);
+    const auto person = std::make_shared<AskBelowPlot>(options.yes, plot);
     Bench bench = open_bench(options.instrument, recipe.seed, person);
     what.calibration = options.calibration.empty() ? bench.calibration : options.calibration;
     if (recipe.kind == RecipeKind::lobe && !what.calibration.empty()) {
         correct_azimuths(read_calibration(what.calibration), &bench);
     }
-    LivePlot plot(common.quiet);
     std::optional<Progress> progress;
     size_t shown = 0;
     SweepOptions sweep;
@@ -109,10 +123,14 @@ int run_capture(const CaptureOptions& options, const OptionSet& set, const Commo
         if (done > shown) progress->step(done - shown);
         shown = done;
     };
-    sweep.observer.message = [](const std::string& text) {
-        fmt::print(stderr, "\r\033[Kdrude: {}\n", text);
+    sweep.observer.message = [&](const std::string& text) {
+        // Over the progress bar. Not fmt::print, which throws where stderr cannot be written: the
+        // sweep goes on.
+        const char* const clear = can_redraw_stderr() && !common.quiet ? "\r\033[K" : "";
+        std::fputs(fmt::format("{}drude: {}\n", clear, text).c_str(), stderr);
+        plot->begin_anew();
     };
-    sweep.observer.scan_finished = [&](const Journal& so_far) { plot.draw(so_far); };
+    sweep.observer.scan_finished = [&](const Journal& so_far) { plot->draw(so_far); };
     const SweepOutcome outcome = run_sweep(bench, recipe, *person, sweep);
     progress.reset();
     if (outcome.stopped) {
@@ -143,6 +161,11 @@ Command capture_command() {
         "1},\n"
         "   \"analyser\": {\"fixed_deg\": 45}, \"retarder\": \"manual\",\n"
         "   \"goniometer\": \"manual\", \"calibration\": \"calibration.json\"}\n\n"
+        "A bench that has \"head\": \"usbtmc:VID:PID:SERIAL\" instead may say which commands the "
+        "instrument knows, where they are not the default ones:\n"
+        "  \"scpi\": {\"angle\": \"SOUR:ANG {}\", \"psi_delta\": \"MEAS:PSID?\",\n"
+        "   \"wavelengths\": \"SENS:WAV?\", \"next_error\": \"SYST:ERR?\", \"done\": \"*OPC?\",\n"
+        "   \"setup\": [], \"format\": \"ascii\", \"move_s\": 120, \"measure_s\": 300}\n\n"
         "RECIPE is a file of format drude-recipe/1; options replace what it says, and without it "
         "they are the recipe:\n"
         "  {\"format\": \"drude-recipe/1\", \"kind\": \"psi-delta\", \"angles_deg\": [65, 70, "

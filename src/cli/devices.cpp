@@ -133,7 +133,12 @@ Command devices_command() {
                      "print the udev rules of all instruments known here, and list nothing");
         return [values, &common] {
             if (values->udev_rules) {
-                fmt::print("{}", udev_rules_file());
+                if (common.json) {
+                    print_json_document(ordered_json{{"file_name", udev_rules_name},
+                                                     {"udev_rules", udev_rules_file()}});
+                } else {
+                    fmt::print("{}", udev_rules_file());
+                }
                 return 0;
             }
             const UsbListing listing = list_usb_devices();

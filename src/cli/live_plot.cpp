@@ -1,15 +1,16 @@
 #include "cli/live_plot.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <numeric>
+#include <sstream>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "device/signal/reduction.h"
 #include "device/sweep/journal_scans.h"
 
@@ -82,11 +83,21 @@ std::string text_plot(const std::vector<double>& x, const std::vector<double>& y
     return text;
 }
 
-LivePlot::LivePlot(bool quiet) {
-    const char* kind = std::getenv("TERM");
-    draws_ =
-        !quiet && isatty(STDERR_FILENO) != 0 && kind != nullptr && std::strcmp(kind, "dumb") != 0;
+std::string fitted(const std::string& text, size_t columns, size_t lines, size_t fixed) {
+    std::vector<std::string> kept;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) kept.push_back(line.substr(0, columns));
+    const size_t excess = kept.size() > lines ? kept.size() - lines : 0;
+    const size_t first = std::min(fixed, kept.size());
+    const size_t dropped = std::min(excess, kept.size() - first);
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(first),
+               kept.begin() + static_cast<std::ptrdiff_t>(first + dropped));
+    std::string result;
+    for (const std::string& line : kept) result += line + "\n";
+    return result;
 }
+
+LivePlot::LivePlot(bool quiet) : draws_(!quiet && can_redraw_stderr()) {}
 
 void LivePlot::draw(const Journal& so_far) {
     if (!draws_ || so_far.points.empty()) return;
@@ -117,6 +128,15 @@ void LivePlot::draw(const Journal& so_far) {
                     last.analyser_deg, last.retarder_in ? ", with retarder" : ""),
         plot_width, plot_height);
     for (const std::string& line : finished_) text += line + "\n";
+    // A line that the terminal breaks in two would shift every picture after it. The last line is
+    // the progress bar's.
+    winsize size{};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) {
+        size.ws_col = 80;
+        size.ws_row = 24;
+    }
+    if (size.ws_row < plot_height + 2) return;
+    text = fitted(text, size.ws_col, size.ws_row - 1U, plot_height + 1);
     std::string screen = "\r\033[K";
     if (lines_ > 0) screen += fmt::format("\033[{}A", lines_);
     for (const char c : text) {

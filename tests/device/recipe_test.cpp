@@ -254,6 +254,51 @@ TEST(BenchFile, WrongOnesAreRefusedWithTheirPlace) {
     });
 }
 
+TEST(BenchFile, AHeadMayHaveItsOwnCommands) {
+    const std::string head = ", \"head\": \"usbtmc:1209:5e11:T1\"";
+    EXPECT_EQ(bench_of(head).scpi.psi_delta, "MEAS:PSID?");
+    EXPECT_EQ(bench_of(head).scpi_json, "");
+    const BenchFile file = bench_of(
+        head +
+        ", \"scpi\": {\"psi_delta\": \"READ:ELL?\", \"angle\": \"ANG {} DEG\", \"next_error\": "
+        "\"\", \"setup\": [\"FORM REAL,32\"], \"format\": \"real32\", \"swapped\": true, "
+        "\"measure_s\": 12.5, \"max_counts\": 4095}");
+    EXPECT_EQ(file.scpi.psi_delta, "READ:ELL?");
+    EXPECT_EQ(file.scpi.angle, "ANG {} DEG");
+    EXPECT_EQ(file.scpi.next_error, "");
+    EXPECT_EQ(file.scpi.setup, std::vector<std::string>{"FORM REAL,32"});
+    EXPECT_EQ(file.scpi.format, ScpiFormat::real32);
+    EXPECT_TRUE(file.scpi.swapped);
+    EXPECT_EQ(file.scpi.measure_s, 12.5);
+    EXPECT_EQ(file.scpi.max_counts, 4095u);
+    EXPECT_EQ(file.scpi.wavelengths, "SENS:WAV?");
+    EXPECT_NE(file.scpi_json.find("READ:ELL?"), std::string::npos);
+    // As the spectrometer of a bench of parts, too, but not for one that speaks no SCPI.
+    EXPECT_EQ(
+        bench_of(", \"spectrometer\": \"usbtmc:1209:5e11\", \"polariser\": {\"rotator\": "
+                 "\"ell:D/0\"}, \"analyser\": {\"fixed_deg\": 45}, \"goniometer\": \"manual\", "
+                 "\"scpi\": {\"lamp\": \"LAMP {}\"}")
+            .scpi.lamp,
+        "LAMP {}");
+    expect_error(Cause::user, {"lab/b.json:1:", "'scpi'", "usbtmc:", "ooi:A"}, [] {
+        bench_of(std::string(parts) + ", \"goniometer\": \"manual\", \"scpi\": {}");
+    });
+    const auto refused = [&](const std::string& members, std::initializer_list<const char*> words) {
+        expect_error(Cause::user, words, [&] { bench_of(head + ", \"scpi\": {" + members + "}"); });
+    };
+    refused("\"psi_dleta\": \"X?\"", {"lab/b.json:1:", "psi_dleta", "'psi_delta'"});
+    refused("\"psi_delta\": \"\"", {"'scpi.psi_delta' is empty"});
+    refused("\"psi_delta\": \"X?\\nY?\"", {"on one line"});
+    refused("\"angle\": \"ANG 70\"", {"with {} once"});
+    refused("\"angle\": \"ANG {} {}\"", {"with {} once"});
+    refused("\"psi_delta\": \"X? {}\"", {"without {}"});
+    refused("\"format\": \"real46\"", {"real46", "'real64'"});
+    refused("\"measure_s\": 0", {"above 0"});
+    refused("\"shortest_s\": 100", {"shortest_s = 100 above longest_s = 60"});
+    refused("\"max_counts\": 0.5", {"whole number"});
+    refused("\"setup\": \"FORM\"", {"'scpi.setup'"});
+}
+
 TEST(BenchFile, AnInstrumentAloneIsToldWhatIsMissing) {
     const auto person = std::make_shared<NoOperator>();
     expect_error(Cause::user, {"ooi:A", "bench file", "drude-bench/1", "polariser"},

@@ -100,8 +100,11 @@ TEST(UsbDevice, TwoFitAndNothingSaysWhich) {
         }
         return;
     }
-    expect_in("2 devices fit 'ooi:' (Ocean Optics spectrometer); say which one: ooi:, ooi:",
-              message_of(ooi(), Cause::user));
+    expect_in(
+        "2 devices fit 'ooi:' (Ocean Optics spectrometer); no serial number tells them apart: "
+        "unplug all of these but the one that is meant: Ocean Optics USB4000 / Flame-T on bus 001, "
+        "device 004, Ocean Optics USB4000 / Flame-T on bus 001, device 005",
+        message_of(ooi(), Cause::user));
 }
 
 // What happens on the bus is recorded in the script: a query of memory slot 0, and its answer.

@@ -23,6 +23,8 @@ the program's status; 125 where it left something behind, 124 where it hung.
   --settings FILE          of the bench (JSON, as of "virtual" in a bench file)
   --frozen-noise           the same noise in every exposure of one state
   --incidence DEGREES      where none of the devices turns the arms (70)
+  --fixed-analyser DEGREES where it stands: the Elliptec bus has the polariser alone, and there is no
+                           retarder
   --move-seconds S         that a mount takes
   --seconds S              that the program may take (60)
   --no-inspect             do not look at the program when it exits (sanitizers)
@@ -92,9 +94,9 @@ BenchOptions parse_bench_options(const std::vector<std::string>& words) {
     options.settings.last_nm = 340 + 0.1354 * 3839;
     options.settings.full_scale_s = 0.002;
     static const std::vector<std::string> known{
-        "--device",       "--fault",        "--random-faults", "--material",   "--settings",
-        "--frozen-noise", "--move-seconds", "--seconds",       "--no-inspect", "--count",
-        "--answers",      "--report",       "--bench-out"};
+        "--device",       "--fault",          "--random-faults", "--material", "--settings",
+        "--frozen-noise", "--fixed-analyser", "--move-seconds",  "--seconds",  "--no-inspect",
+        "--count",        "--answers",        "--report",        "--bench-out"};
     size_t i = 0;
     for (; i < words.size() && words[i] != "--"; ++i) {
         const std::string& option = words[i];
@@ -117,6 +119,8 @@ BenchOptions parse_bench_options(const std::vector<std::string>& words) {
             options.frozen_noise = true;
         } else if (option == "--incidence") {
             options.incidence_deg = number(option, value());
+        } else if (option == "--fixed-analyser") {
+            options.fixed_analyser_deg = number(option, value());
         } else if (option == "--move-seconds") {
             options.move_s = number(option, value());
         } else if (option == "--seconds") {

@@ -1,6 +1,7 @@
 // The command line of usb-bench.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,8 @@ struct BenchOptions {
     VirtualBenchSettings settings;
     bool frozen_noise = false;
     double move_s = 0;
-    double incidence_deg = 70;  // where no device turns the arms
+    double incidence_deg = 70;                 // where no device turns the arms
+    std::optional<double> fixed_analyser_deg;  // one mount alone, and no retarder
     double seconds_allowed = 60;
     bool inspect = true;
     bool count = false;

@@ -33,6 +33,30 @@ constexpr double same_deg = 1e-9;
 constexpr const char* settings = R"({"pixels": 3840, "first_nm": 340, "last_nm": 859.8006,
  "full_scale_s": 0.03, "dark_counts": 1500})";
 
+// The virtual STS gets its dispersion from usb-bench.
+constexpr const char* small_settings = R"({"pixels": 1024, "first_nm": 340, "last_nm": 851.5,
+ "max_counts": 16383, "full_scale_s": 0.03, "dark_counts": 400})";
+
+struct BenchDevices {
+    const char *devices, *instrument, *settings;
+};
+
+BenchDevices devices_of(CaptureBench bench) {
+    switch (bench) {
+        case CaptureBench::small:
+            return {"--device obp:STS00001 --device ell:DK0AELL1 --fixed-analyser 45", "bench.json",
+                    small_settings};
+        case CaptureBench::head:
+            return {"--device usbtmc:TMC0001", "usbtmc:1209:5e11:TMC0001", settings};
+        case CaptureBench::full:
+            break;
+    }
+    return {
+        "--device ooi:USB4C00001 --device ell:DK0AELL1 --device apt-sample:55000001 "
+        "--device apt-arm:55000002",
+        "bench.json", settings};
+}
+
 std::string text_of(const std::string& path) {
     return std::filesystem::exists(path) ? read_file(path) : "";
 }
@@ -130,6 +154,18 @@ void compare_with_sample(const std::vector<MeasurementRow>& whole,
 void compare(const CaptureResult& truth, CaptureResult* result) {
     const auto trouble = [&](const std::string& text) { result->troubles.push_back(text); };
     if (!result->journal.complete) trouble("the journal is not complete");
+    if (!truth.journal.header->has_spectrometer) {
+        if (result->measurement.rows.size() != truth.measurement.rows.size()) {
+            return trouble(fmt::format("{} rows", result->measurement.rows.size()));
+        }
+        for (size_t i = 0; i < truth.measurement.rows.size(); ++i) {
+            const MeasurementRow &ours = result->measurement.rows[i],
+                                 &theirs = truth.measurement.rows[i];
+            if (ours.psi_deg == theirs.psi_deg && ours.delta_deg == theirs.delta_deg) continue;
+            trouble(fmt::format("Psi or Delta at {} nm differs", theirs.wavelength_nm));
+        }
+        return;
+    }
     const uint32_t max_counts = truth.journal.header->spectrometer.max_counts;
     for (const JournalDark& dark : result->journal.darks) {
         if (is_saturated(dark.frames, max_counts)) trouble("a dark is saturated");
@@ -178,22 +214,23 @@ CaptureResult run_capture_cell(const std::string& build, const std::string& fold
     make_folder(folder);
     const auto file = [&](const std::string& name) { return folder + "/" + name; };
     write_file(file("recipe.json"), short_recipe);
-    write_file(file("settings.json"), settings);
+    const BenchDevices bench = devices_of(cell.bench);
+    write_file(file("settings.json"), bench.settings);
     std::string faults;
     std::istringstream words(cell.faults);
     for (std::string word; words >> word;) faults += " --fault " + word;
     const auto capture = [&](const std::string& more, const std::string& errors) {
         return fmt::format(
-            "sh -c 'exec \"{}/drude\" capture recipe.json --instrument bench.json -o m.csv --json "
+            "sh -c 'exec \"{}/drude\" capture recipe.json --instrument {} -o m.csv --json "
             "--wait {} {} > {}.json 2> {}'",
-            build, cell.wait_s, more, errors, errors);
+            build, bench.instrument, cell.wait_s, more, errors, errors);
     };
     const std::string command = fmt::format(
-        "cd '{}' && '{}/usb-bench' --device ooi:USB4C00001 --device ell:DK0AELL1 "
-        "--device apt-sample:55000001 --device apt-arm:55000002 --settings "
+        "cd '{}' && '{}/usb-bench' {} --settings "
         "settings.json --bench-out bench.json --report report.json --answers "
         "answers.txt{} -- {} --on-failure {} > bench.out 2>&1 < /dev/null",
-        folder, build, faults, capture("", "first.err"), capture("--resume", "second.err"));
+        folder, build, bench.devices, faults, capture("", "first.err"),
+        capture("--resume", "second.err"));
     const int raw = std::system(command.c_str());
 
     CaptureResult result;

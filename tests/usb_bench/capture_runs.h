@@ -13,9 +13,17 @@ namespace drude {
 // that a reading is the same whenever it is taken.
 extern const char* const short_recipe;
 
+// Which devices there are.
+enum class CaptureBench {
+    full,   // USB4000, three Elliptec mounts, two APT arms
+    small,  // STS (checksums) and a polariser alone: a sweep of few transfers
+    head,   // a USBTMC head that returns Psi and Delta
+};
+
 struct CaptureCell {
     std::string faults;  // "stall@12"; separated by spaces; empty: none
     double wait_s = 1;   // for an unplugged instrument
+    CaptureBench bench = CaptureBench::full;
 };
 
 struct CaptureResult {

@@ -1,7 +1,8 @@
 // Every fault at every answer of a short sweep, through the program itself and libusb.
 //
-//   fault_matrix FOLDER [--every N] [--sweep-only] [--only FAULT] [--jobs N] [--kills N] [--seed N]
-//     [-o TABLE.md]
+//   fault_matrix FOLDER [--bench full|small|head] [--every N] [--sweep-only] [--only FAULT] [--jobs
+//   N]
+//     [--kills N] [--seed N] [-o TABLE.md]
 //
 // Each cell is one run of `drude capture` on the virtual bench with one fault. It must end with the
 // right measurement, or with status 3 and one line that names the device; then `drude capture
@@ -38,6 +39,7 @@ struct MatrixOptions {
     std::string folder, table, only;
     uint64_t every = 1, jobs = 2, kills = 0, seed = 1;
     bool sweep_only = false;
+    CaptureBench bench = CaptureBench::full;
 };
 
 struct Answer {
@@ -71,7 +73,8 @@ std::vector<Answer> read_answers(const std::string& list) {
 // What is left of a run is only kept where something is wrong.
 void run_cell(const MatrixOptions& options, const CaptureResult& reference, Cell* cell) {
     const std::string folder = fmt::format("{}/{}-{}", options.folder, cell->kind, cell->index);
-    cell->result = run_capture_cell(DRUDE_BINARY_DIR, folder, {cell->fault, 1}, &reference);
+    cell->result =
+        run_capture_cell(DRUDE_BINARY_DIR, folder, {cell->fault, 1, options.bench}, &reference);
     CaptureResult& result = cell->result;
     const bool killed = result.status == 137;
     if (result.status != 0 && result.status != 3 && !(killed && cell->kind == "kill")) {
@@ -159,6 +162,11 @@ MatrixOptions parse(const std::vector<std::string>& words) {
             options.kills = count(++i);
         } else if (words[i] == "--seed") {
             options.seed = count(++i);
+        } else if (words[i] == "--bench" && i + 1 < words.size()) {
+            const std::vector<std::string> names = {"full", "small", "head"};
+            const auto found = std::find(names.begin(), names.end(), words[++i]);
+            if (found == names.end()) user_error("fault_matrix: found --bench {}", words[i]);
+            options.bench = static_cast<CaptureBench>(found - names.begin());
         } else if (words[i] == "--sweep-only") {
             options.sweep_only = true;
         } else if (words[i] == "--only" && i + 1 < words.size()) {
@@ -176,16 +184,17 @@ MatrixOptions parse(const std::vector<std::string>& words) {
 }
 
 int run(const MatrixOptions& options) {
-    const CaptureResult reference =
-        run_capture_cell(DRUDE_BINARY_DIR, options.folder + "/reference", {}, nullptr);
+    const CaptureResult reference = run_capture_cell(
+        DRUDE_BINARY_DIR, options.folder + "/reference", {"", 1, options.bench}, nullptr);
     if (!reference.troubles.empty() || reference.status != 0) {
         outside_error("the run without faults failed: {}", fmt::join(reference.troubles, "; "));
     }
     const std::vector<Answer> answers = read_answers(reference.answer_list);
     // The sweep begins where the first mount looks for its mark.
     size_t sweep_begin = 0;
+    const std::string first = options.bench == CaptureBench::head ? "SOUR:ANG" : "ho";
     while (sweep_begin < answers.size() &&
-           answers[sweep_begin].what.find("ho") == std::string::npos) {
+           answers[sweep_begin].what.find(first) == std::string::npos) {
         ++sweep_begin;
     }
     std::vector<Cell> cells;

@@ -128,5 +128,41 @@ TEST(Instruments, ALostSyncByteIsNotAFrame) {
     EXPECT_NE(run.err.find("ooi:SN1"), std::string::npos) << run.err;
 }
 
+// Whether the device leaves while it is written to or while it is read from, it is said to be gone.
+TEST(Instruments, UnpluggedDuringAnyTransferIsSaidToBe) {
+    const TemporaryFolder folder;
+    const std::string device = "--device ell:DK0AELL1 --answers answers.txt ";
+    const std::string client = "{client} rotator ell:DK0AELL1/0 45 -30";
+    ASSERT_EQ(run_on_bench(folder, device, client).status, 0);
+    int bulk = 0;
+    for (const std::string& answer : lines(read_text(folder.file("answers.txt")))) {
+        if (answer.find("\tcommand") == std::string::npos &&
+            answer.find("\tanswer") == std::string::npos) {
+            continue;
+        }
+        const BenchRun run = run_on_bench(
+            folder, device + "--fault unplug@" + answer.substr(0, answer.find('\t')), client);
+        EXPECT_EQ(run.status, 3) << answer;
+        EXPECT_NE(run.err.find("it was unplugged"), std::string::npos) << answer << run.err;
+        EXPECT_EQ(run.report["troubles"].size(), 0U) << answer << run.err;
+        ++bulk;
+    }
+    EXPECT_GE(bulk, 8);
+}
+
+TEST(Instruments, ASerialNumberThatCannotBeReadIsNotTakenForAnother) {
+    const TemporaryFolder folder;
+    const std::string client = "{client} rotator apt:55000001 70";
+    // Asked again after one failure.
+    BenchRun run = run_on_bench(folder, "--device apt-sample:55000001 --fault stall@0", client);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.report["faults_applied"], 1);
+    run = run_on_bench(folder, "--device apt-sample:55000001 --fault stall@0 --fault stall@1",
+                       client);
+    EXPECT_EQ(run.status, 3);
+    EXPECT_NE(run.err.find("could not be read (Pipe error)"), std::string::npos) << run.err;
+    EXPECT_EQ(run.err.find("no Thorlabs"), std::string::npos) << run.err;
+}
+
 }  // namespace
 }  // namespace drude

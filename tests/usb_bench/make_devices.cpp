@@ -11,14 +11,15 @@ namespace drude::usb_bench {
 
 namespace {
 
-std::unique_ptr<VirtualDevice> make_device(const DeviceOption& option, double move_s,
+std::unique_ptr<VirtualDevice> make_device(const DeviceOption& option, const BenchOptions& options,
                                            OpticalBench& bench, FaultPlan& faults) {
+    const double move_s = options.move_s;
     if (option.scheme == "ooi") return std::make_unique<OoiDevice>(option.serial, bench, faults);
     if (option.scheme == "obp") return std::make_unique<ObpDevice>(option.serial, bench, faults);
     if (option.scheme == "ell") {
-        return std::make_unique<ElliptecBus>(
-            option.serial, std::vector<Role>{Role::polariser, Role::analyser, Role::retarder},
-            move_s, bench, faults);
+        std::vector<Role> roles{Role::polariser};
+        if (!options.fixed_analyser_deg) roles = {Role::polariser, Role::analyser, Role::retarder};
+        return std::make_unique<ElliptecBus>(option.serial, roles, move_s, bench, faults);
     }
     if (option.scheme == "apt-sample" || option.scheme == "apt-arm") {
         const Role role = option.scheme == "apt-arm" ? Role::detector_arm : Role::sample_stage;
@@ -35,12 +36,18 @@ std::unique_ptr<VirtualDevice> make_device(const DeviceOption& option, double mo
 std::vector<std::unique_ptr<VirtualDevice>> make_devices(const BenchOptions& options,
                                                          OpticalBench& bench, FaultPlan& faults) {
     bool has_arms = false;
-    std::vector<std::unique_ptr<VirtualDevice>> devices;
     for (const DeviceOption& option : options.devices) {
         has_arms = has_arms || option.scheme == "apt-sample";
-        devices.push_back(make_device(option, options.move_s, bench, faults));
     }
     if (!has_arms) bench.fix_arms(options.incidence_deg);
+    if (options.fixed_analyser_deg) {
+        bench.set(Role::analyser, *options.fixed_analyser_deg);
+        bench.set(Role::retarder, 90);
+    }
+    std::vector<std::unique_ptr<VirtualDevice>> devices;
+    for (const DeviceOption& option : options.devices) {
+        devices.push_back(make_device(option, options, bench, faults));
+    }
     return devices;
 }
 

@@ -45,8 +45,12 @@ void write_bench_file(const BenchOptions& options) {
     if (const DeviceOption* device = find("ell")) {
         const std::string uri = "ell:" + device->serial;
         bench["polariser"] = {{"rotator", uri + "/0"}};
-        bench["analyser"] = {{"rotator", uri + "/1"}};
-        bench["retarder"] = {{"rotator", uri + "/2"}, {"in_deg", 0}, {"out_deg", 90}};
+        if (options.fixed_analyser_deg) {
+            bench["analyser"] = {{"fixed_deg", *options.fixed_analyser_deg}};
+        } else {
+            bench["analyser"] = {{"rotator", uri + "/1"}};
+            bench["retarder"] = {{"rotator", uri + "/2"}, {"in_deg", 0}, {"out_deg", 90}};
+        }
     }
     const DeviceOption *sample = find("apt-sample"), *arm = find("apt-arm");
     if (sample != nullptr && arm != nullptr) {
