@@ -22,7 +22,7 @@ struct PictureBudget {
     int side = 512;                 // pixels shown along the longer side
     size_t stokes_bytes = 3500000;  // S1..S3 of R, G, B
     size_t spectral_bytes = 4000000;
-    size_t colour_bytes = 12000000;  // S0 of R, G, B; sharp pictures are never thinned out
+    size_t colour_bytes = 8500000;  // S0 of R, G, B; sharp pictures are never thinned out
 };
 
 class PictureData {
