@@ -143,12 +143,14 @@ JournalPoint SweepRun::take_point(uint32_t index, double integration_s) {
     point.index = index;
     point.session = session_;
     point.integration_s = integration_s;
+    bool seen_saturated = false;
     retrier_.run([&] {
         driver_.set_lamp(true);
         driver_.set_integration_time(integration_s);
         driver_.set(journal_.plan[index]);
         point.frames = take_frames(journal_.header->recipe.averages *
                                    static_cast<int>(journal_.plan[index].repeat));
+        check_saturation(point.frames, &seen_saturated);
         point.settled_s = driver_.settled_s();
         point.polariser_deg = driver_.polariser_deg();
         point.polariser_reported_deg = driver_.polariser_reported_deg();
@@ -157,6 +159,29 @@ JournalPoint SweepRun::take_point(uint32_t index, double integration_s) {
     });
     point.retries = static_cast<uint32_t>(retrier_.retries());
     return point;
+}
+
+// Full scale over most of a frame is believed where it is read a second time: until then it may be
+// a flash, or a damaged frame. Of an exposure that is simply too long it is not asked again.
+void SweepRun::check_saturation(const std::vector<Frame>& frames, bool* seen) {
+    if (overexposed_) return;
+    const SpectrometerInfo& spectrometer = bench_.spectrometer->info();
+    for (const Frame& frame : frames) {
+        const auto full =
+            std::count_if(frame.counts.begin(), frame.counts.end(),
+                          [&](uint32_t counts) { return counts >= spectrometer.max_counts; });
+        if (2 * static_cast<size_t>(full) <= frame.counts.size()) continue;
+        if (*seen) {
+            overexposed_ = true;
+            log("warning", fmt::format("{}: {} of {} pixels read full scale; they are left out. "
+                                       "Choose a shorter time with --integration",
+                                       spectrometer.uri, full, frame.counts.size()));
+            return;
+        }
+        *seen = true;
+        device_error(Fault::bad_frame, "{}: {} of {} pixels read full scale", spectrometer.uri,
+                     full, frame.counts.size());
+    }
 }
 
 std::vector<Frame> SweepRun::take_frames(int count) {

@@ -31,6 +31,7 @@ class SweepRun {
     double exposure_of(uint32_t group);
     JournalDark take_dark(uint32_t block, double integration_s);
     JournalPoint take_point(uint32_t index, double integration_s);
+    void check_saturation(const std::vector<Frame>& frames, bool* seen);
     std::vector<Frame> take_frames(int count);
     void check_against_before(const std::set<uint32_t>& done);
 
@@ -41,6 +42,7 @@ class SweepRun {
     JournalWriter writer_;
     Retrier retrier_;
     uint32_t session_ = 0;
+    bool overexposed_ = false;  // full scale was read twice in a row
 };
 
 }  // namespace drude

@@ -326,6 +326,39 @@ SweepOutcome run_spoilt(const std::string& journal, SpoiltSpectrometer::Spoil sp
     return run_sweep(bench, recipe, nobody, options);
 }
 
+// A frame of full scale between others is a flash: it is taken again, and nothing of it is kept.
+TEST(SweepSaturation, AFlashIsMeasuredAgain) {
+    const TemporaryFolder folder;
+    const SweepOutcome whole = run_short_sweep(folder.file("whole.journal"), false);
+    for (const int flash : {3, 9}) {
+        const SweepOutcome flashed = run_spoilt(
+            folder.file("a.journal"), [&](bool lamp_on, int frame, std::vector<uint32_t>* counts) {
+                if (lamp_on && frame == flash) counts->assign(counts->size(), 65535);
+            });
+        // Where the frame is one of those that are discarded, nobody sees it.
+        EXPECT_LE(flashed.retries, 1u);
+        expect_same_points(whole.journal, flashed.journal, std::to_string(flash));
+    }
+}
+
+// An exposure that is too long is believed after the second frame, and said once.
+TEST(SweepSaturation, AnOverexposedSweepGoesOnWithAWarning) {
+    const TemporaryFolder folder;
+    const SweepOutcome outcome =
+        run_spoilt(folder.file("a.journal"), [](bool lamp_on, int, std::vector<uint32_t>* counts) {
+            if (lamp_on) counts->assign(counts->size(), 65535);
+        });
+    EXPECT_TRUE(outcome.journal.complete);
+    EXPECT_EQ(outcome.retries, 1u);
+    const auto& events = outcome.journal.events;
+    EXPECT_EQ(std::count_if(events.begin(), events.end(),
+                            [](const JournalEvent& event) {
+                                return event.kind == "warning" &&
+                                       event.text.find("read full scale") != std::string::npos;
+                            }),
+              1);
+}
+
 TEST(SweepDark, OneThatIsNoneIsTakenAgain) {
     const TemporaryFolder folder;
     const Journal whole = run_short_sweep(folder.file("whole.journal"), false).journal;
