@@ -97,16 +97,33 @@ std::string Elliptec::where() const {
 }
 
 ElliptecIdentity Elliptec::identify() {
-    try {
-        bus_->send(address_, "in");
-        return parse_elliptec_identity(
-            bus_->receive(address_, "IN", deadline_in(options_.silence_s)), where());
-    } catch (const DeviceError& error) {
-        if (error.fault() != Fault::timeout) throw;
-        device_error(Fault::timeout,
-                     "{}: no mount answers at this address within {} s; check its address, its "
-                     "supply and the bus cable",
-                     where(), options_.silence_s);
+    // A program that stopped within a command leaves its beginning in the mounts, which then do not
+    // understand the next one: they complain or say nothing, and have forgotten it.
+    for (int attempt = 0;; ++attempt) {
+        try {
+            bus_->send(address_, "in");
+            const ElliptecAnswer answer =
+                bus_->receive(address_, "IN GS", deadline_in(options_.silence_s));
+            if (answer.code == "IN") return parse_elliptec_identity(answer, where());
+            const int status = parse_elliptec_status(answer, where());
+            if (status == elliptec_busy) {
+                wait_until_idle(deadline_in(options_.silence_s + options_.home_s));
+            } else if (attempt > 0) {
+                device_error(elliptec_status_fault(status),
+                             "{}: does not tell who it is: {} (GS{:02X})", where(),
+                             elliptec_status_words(status), status);
+            }
+        } catch (const DeviceError& error) {
+            if (error.fault() != Fault::timeout) throw;
+            if (attempt == 0) continue;
+            device_error(Fault::timeout,
+                         "{}: no mount answers at this address within {} s; check its address, its "
+                         "supply and the bus cable",
+                         where(), options_.silence_s);
+        }
+        if (attempt > 1) {
+            device_error(Fault::mechanical, "{}: stays busy (GS09) when asked who it is", where());
+        }
     }
 }
 

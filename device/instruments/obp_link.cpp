@@ -1,5 +1,7 @@
 #include "device/instruments/obp_link.h"
 
+#include <algorithm>
+
 #include "device/device_error.h"
 #include "device/instruments/spectrometer_link.h"
 
@@ -8,6 +10,8 @@ namespace drude {
 namespace {
 
 constexpr uint16_t deferred = 255;  // an error number that means "still at it"
+// For the next part of a message that has begun to come.
+constexpr double part_s = 1;
 
 }  // namespace
 
@@ -66,9 +70,16 @@ ObpMessage ObpLink::receive(Deadline deadline) {
     for (int i = 0; i < 8 && count == 0; ++i) count = port_.read(model_.in, bytes, deadline);
     bytes.resize(count);
     const size_t total = obp_message_bytes(bytes, port_.name());
-    if (count == packet && total > count) {
-        std::vector<uint8_t> rest(whole_packets(port_, model_.in, total - count));
-        rest.resize(port_.read(model_.in, rest, deadline));
+    // High-speed devices may send the first 64 bytes as a short packet, and go on after it.
+    while (bytes.size() < total) {
+        std::vector<uint8_t> rest(whole_packets(port_, model_.in, total - bytes.size()));
+        try {
+            rest.resize(port_.read(model_.in, rest, std::min(deadline, deadline_in(part_s))));
+        } catch (const DeviceError& error) {
+            if (error.fault() != Fault::timeout) throw;
+            break;  // parsing says how many bytes are missing
+        }
+        if (rest.empty()) break;
         bytes.insert(bytes.end(), rest.begin(), rest.end());
     }
     return parse_obp_message(bytes, port_.name());

@@ -42,8 +42,10 @@ std::vector<ObpModel> make_models() {
     ObpModel hdx = first_model(0x2003, "HDX", 2068, 65535, 6000, 10000000);
     hdx.spectrum_message = 0x00101000;
     models.push_back(hdx);
-    ObpModel qe_pro = first_model(0x4004, "QE Pro", 1044, 262143, 8000, 1600000000);
+    // Of its 18 bits: SeaBreeze's maximum of this model, above which the detector is full.
+    ObpModel qe_pro = first_model(0x4004, "QE Pro", 1044, 200000, 8000, 1600000000);
     qe_pro.spectrum_message = 0x00100928;
+    qe_pro.clear_message = 0x00100830;
     qe_pro.metadata_bytes = 32;
     qe_pro.bytes_per_count = 4;
     qe_pro.dark_count = 4;

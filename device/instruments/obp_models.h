@@ -14,6 +14,9 @@ struct ObpModel {
     bool second = false;  // OBP2
     uint8_t out = 0x01, in = 0x81;
     uint32_t spectrum_message = 0;  // that asks for a spectrum
+    // That forgets the spectra which the device has gathered, where it hands out the oldest first;
+    // 0: it keeps none.
+    uint32_t clear_message = 0;
     int pixels = 0;
     size_t metadata_bytes = 0;  // before the counts
     int bytes_per_count = 2;

@@ -54,7 +54,7 @@ class ObpSpectrometer : public Spectrometer {
 
     void set_integration_time(double seconds) override {
         const uint32_t units = integration_units(seconds, info_.shortest_s, info_.longest_s,
-                                                 model_.unit_us, port_->name());
+                                                 model_.unit_us, model_.unit_us, port_->name());
         link_.command(messages_.set_integration_time, four_bytes(units));
         units_ = units;
         // The exposure that runs now keeps the time that it began with.
@@ -70,6 +70,7 @@ class ObpSpectrometer : public Spectrometer {
     }
 
     Frame acquire() override {
+        forget_gathered();
         Frame frame;
         frame.requested_s = clock_.now();
         // The exposure that runs now, at worst the whole of the next, its readout.
@@ -87,11 +88,21 @@ class ObpSpectrometer : public Spectrometer {
         return frame;
     }
 
-    void recover() override {
+    void recover() override { set_up_again(false); }
+
+    bool reconnect(double seconds) override {
+        if (!port_->reopen(seconds)) return false;
+        set_up_again(true);
+        return true;
+    }
+
+  private:
+    void set_up_again(bool maybe_another) {
         link_.clear();
         with_retries(
             [&] {
                 start();
+                if (maybe_another) check_serial(read_serial(), info_.serial, port_->name());
                 link_.command(messages_.set_integration_time, four_bytes(units_));
                 running_s_ = integration_s_;
                 if (lamp_is_ours_) set_lamp(lamp_);
@@ -99,13 +110,22 @@ class ObpSpectrometer : public Spectrometer {
             [&] { link_.clear(); });
     }
 
-    bool reconnect(double seconds) override {
-        if (!port_->reopen(seconds)) return false;
-        recover();
-        return true;
+    std::string read_serial() {
+        const std::string in_memory = stored_text(ask(get_serial));
+        return in_memory.empty() ? port_->serial() : in_memory;
     }
 
-  private:
+    // A device that gathers spectra by itself has some of before the request.
+    void forget_gathered() {
+        if (model_.clear_message == 0 || !gathers_) return;
+        try {
+            link_.command(model_.clear_message, {});
+        } catch (const DeviceError& error) {
+            if (error.fault() != Fault::refused) throw;
+            gathers_ = false;  // firmware from before it could
+        }
+    }
+
     void start() {
         link_.drain();
         link_.command(messages_.set_trigger_mode, {0});
@@ -122,9 +142,8 @@ class ObpSpectrometer : public Spectrometer {
 
     void read_calibration() {
         info_.warnings.clear();
-        const std::string in_memory = stored_text(ask(get_serial));
-        info_.serial = in_memory.empty() ? port_->serial() : in_memory;
-        info_.uri = "obp:" + (port_->serial().empty() ? in_memory : port_->serial());
+        info_.serial = read_serial();
+        info_.uri = "obp:" + (port_->serial().empty() ? info_.serial : port_->serial());
         info_.model =
             fmt::format("{} {}", model_.second ? "Ocean Insight" : "Ocean Optics", model_.name);
         info_.max_counts = model_.max_counts;
@@ -210,6 +229,7 @@ class ObpSpectrometer : public Spectrometer {
     double integration_s_ = 0;
     double running_s_ = 0;  // of the exposure that may be running: set before the last change
     bool lamp_ = false, lamp_is_ours_ = false;
+    bool gathers_ = true;
 };
 
 }  // namespace

@@ -18,8 +18,10 @@ OoiModel early_model(uint16_t product, const char* name) {
     model.split_bytes = true;
     model.max_counts = 4095;
     model.shortest_us = 3000;
-    model.longest_us = 655350000;
+    // 16 bits of milliseconds: more would wrap around to a short time.
+    model.longest_us = 65535000;
     model.unit_us = 1000;
+    model.step_us = 1000;
     model.readout_s = 0.010;
     model.has_status = false;
     return model;
@@ -35,6 +37,7 @@ OoiModel fpga_model(uint16_t product, const char* name, int pixels, uint32_t max
     model.shortest_us = shortest_us;
     model.longest_us = longest_us;
     model.unit_us = unit_us;
+    model.step_us = unit_us;
     // The detectors are read at about 1 MHz; the rest is the bus and the host.
     model.readout_s = 0.002 + 1e-6 * pixels;
     return model;
@@ -53,17 +56,21 @@ std::vector<OoiModel> make_models() {
 
     OoiModel usb2000_plus =
         fpga_model(0x101E, "USB2000+ / Flame-S", 2048, 65535, 1000, 655350000, 1);
+    usb2000_plus.step_us = 1000;
     usb2000_plus.saturation = SaturationSlot::at_6;
     add(usb2000_plus, 6, 15);
     OoiModel hr2000_plus = fpga_model(0x1016, "HR2000+", 2048, 16383, 1000, 655350000, 1);
+    hr2000_plus.step_us = 1000;
     hr2000_plus.flip = 0x2000;
     add(hr2000_plus, 2, 22);
     OoiModel hr4000 = fpga_model(0x1012, "HR4000", 3840, 16383, 10, 655350000, 1);
     hr4000.first = 0x86;
+    hr4000.step_us = 10;
     hr4000.flip = 0x2000;
     add(hr4000, 2, 11);
     OoiModel usb4000 = fpga_model(0x1022, "USB4000 / Flame-T", 3840, 65535, 10, 65535000, 1);
     usb4000.first = 0x86;
+    usb4000.step_us = 10;
     usb4000.saturation = SaturationSlot::at_6;
     add(usb4000, 5, 11);
     OoiModel qe65000 = fpga_model(0x1018, "QE65000", 1280, 65535, 8000, 1600000000, 1000);
@@ -89,6 +96,7 @@ std::vector<OoiModel> make_models() {
     nirquest.pixels = 256;
     add(nirquest, 0, 0);
     OoiModel jaz = fpga_model(0x2000, "Jaz", 2048, 65535, 1000, 655350000, 1);
+    jaz.step_us = 1000;
     jaz.has_sync = false;
     jaz.has_status = false;
     jaz.saturation = SaturationSlot::at_6;

@@ -1,6 +1,8 @@
 // The spectrometers that speak the OOI protocol, as data.
 //
-// Numbers as in the tables of python-seabreeze (pyseabreeze/devices.py, features/spectrometer.py).
+// Numbers as in the tables of python-seabreeze (pyseabreeze/devices.py, features/spectrometer.py);
+// steps of the integration time as the increments of Ocean Optics' SeaBreeze
+// (XSpectrometerFeature).
 #pragma once
 
 #include <cstddef>
@@ -28,6 +30,7 @@ struct OoiModel {
     uint16_t flip = 0;         // bits of a count that are sent inverted
     uint32_t max_counts = 65535;
     uint32_t shortest_us = 0, longest_us = 0, unit_us = 1;  // of the integration time
+    uint32_t step_us = 1;  // its resolution: the device drops what lies below
     double readout_s = 0;  // from the end of an integration to its last byte, high speed
     int pixel_origin = 0;  // the wavelength polynomial's argument for pixel 0
     int dark_first = 0, dark_count = 0;

@@ -91,7 +91,7 @@ class OoiSpectrometer : public Spectrometer {
 
     void set_integration_time(double seconds) override {
         const uint32_t units = integration_units(seconds, info_.shortest_s, info_.longest_s,
-                                                 model_.unit_us, port_->name());
+                                                 model_.unit_us, model_.step_us, port_->name());
         link_.send(ooi_set_integration_time(units));
         units_ = units;
         // The exposure that runs now keeps the time that it began with.
@@ -116,27 +116,18 @@ class OoiSpectrometer : public Spectrometer {
         bytes.reserve(model_.frame_bytes());
         if (high_speed_ && model_.first != 0)
             read_part(model_.first, first_part_bytes, deadline, &bytes);
-        const uint8_t endpoint = high_speed_ ? model_.spectrum : model_.reply;
-        read_part(endpoint, model_.frame_bytes() - bytes.size(), deadline, &bytes);
+        read_part(model_.spectrum, model_.frame_bytes() - bytes.size(), deadline, &bytes);
         frame.arrived_s = clock_.now();
         frame.counts = parse_ooi_frame(bytes, model_, port_->name());
         running_s_ = integration_s_;
         return frame;
     }
 
-    void recover() override {
-        link_.clear();
-        with_retries(
-            [&] {
-                start();
-                restore();
-            },
-            [&] { link_.clear(); });
-    }
+    void recover() override { set_up_again(false); }
 
     bool reconnect(double seconds) override {
         if (!port_->reopen(seconds)) return false;
-        recover();
+        set_up_again(true);
         return true;
     }
 
@@ -146,13 +137,32 @@ class OoiSpectrometer : public Spectrometer {
         link_.drain();
         link_.initialize(clock_);
         link_.drain();  // an exposure that the initialisation did not stop
-        // The oldest models are full-speed devices that use the same endpoint on every link.
+        // A full-speed link has no second endpoint of frames: all of one comes from `spectrum`. The
+        // oldest models are full-speed devices that know nothing else.
         high_speed_ = !model_.has_status || link_.status().high_speed;
         link_.send(ooi_set_trigger_mode(0));
         info_.readout_s = model_.readout_s;
         // 12 Mbit/s carry about 1 MB a second.
         if (!port_->high_speed())
             info_.readout_s += 1.2e-6 * static_cast<double>(model_.frame_bytes());
+    }
+
+    // After an unplugging it may be another one: descriptors of this family seldom have serial
+    // numbers, so the port cannot tell.
+    void set_up_again(bool maybe_another) {
+        link_.clear();
+        with_retries(
+            [&] {
+                start();
+                if (maybe_another) check_serial(read_serial(), info_.serial, port_->name());
+                restore();
+            },
+            [&] { link_.clear(); });
+    }
+
+    std::string read_serial() {
+        const std::string in_memory = stored_text(link_.slot(0));
+        return in_memory.empty() ? port_->serial() : in_memory;
     }
 
     void restore() {
@@ -163,9 +173,8 @@ class OoiSpectrometer : public Spectrometer {
 
     void read_calibration() {
         info_.warnings.clear();
-        const std::string in_memory = stored_text(link_.slot(0));
-        info_.serial = in_memory.empty() ? port_->serial() : in_memory;
-        info_.uri = "ooi:" + (port_->serial().empty() ? in_memory : port_->serial());
+        info_.serial = read_serial();
+        info_.uri = "ooi:" + (port_->serial().empty() ? info_.serial : port_->serial());
         info_.model = fmt::format("Ocean Optics {}", model_.name);
         info_.max_counts = model_.max_counts;
         info_.shortest_s = model_.shortest_us / 1e6;

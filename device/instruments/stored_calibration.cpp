@@ -34,7 +34,7 @@ bool all_finite(const std::vector<double>& coefficients) {
 std::string stored_text(std::span<const uint8_t> bytes) {
     std::string text;
     for (const uint8_t byte : bytes) {
-        if (byte == 0) break;
+        if (byte == 0 || byte == 0xFF) break;
         text += byte >= 32 && byte < 127 ? static_cast<char>(byte) : '?';
     }
     const size_t first = text.find_first_not_of(' ');

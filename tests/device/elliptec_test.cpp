@@ -262,6 +262,21 @@ TEST(Elliptec, NoMountAtAnAddress) {
     EXPECT_THROW(bus.mount('g'), Error);
 }
 
+TEST(Elliptec, HalfACommandOfAnEarlierProgramIsForgottenByASecondQuestion) {
+    for (const char* first : {"", "0GS01", "0GS03", "0GS09"}) {
+        FakeBus bus;
+        bus.queue("0in", first);
+        EXPECT_EQ(bus.mount()->identity().serial, "11400587") << first;
+        EXPECT_EQ(bus.count("0in"), 2) << first;
+    }
+    FakeBus bus;
+    bus.queue("0in", "0GS03");
+    bus.queue("0in", "0GS03");
+    std::string message;
+    EXPECT_EQ(fault_of([&] { bus.mount(); }, &message), Fault::refused);
+    EXPECT_NE(message.find("GS03"), std::string::npos) << message;
+}
+
 TEST(Elliptec, RecoversFromAStallAndDropsWhatCameLate) {
     FakeBus bus;
     const auto mount = bus.mount();

@@ -156,6 +156,63 @@ TEST(ObpSpectrometer, AQeProHasMetadataAndWideCounts) {
     EXPECT_EQ(it.spectrometer->acquire().counts[1043], 260750u);
 }
 
+// It gathers spectra by itself and hands out the oldest first.
+TEST(ObpSpectrometer, AQeProForgetsWhatItGatheredBeforeTheRequest) {
+    auto port = std::make_shared<FakeObp>(uint16_t{0x4004});
+    port->answers[0x000100] = {'Q', '1'};
+    port->answers[0x180100] = {2};
+    port->coefficients[0x180101] = {200, 0.75};
+    port->commands = {0x110010, 0x110110, 0x100830};
+    const auto spectrum = [](uint32_t counts) {
+        Bytes bytes(32, 0xEE);
+        for (uint32_t i = 0; i < 1044; ++i) put(bytes, counts, 4);
+        return bytes;
+    };
+    Opened it(port);
+    it.open();
+    EXPECT_EQ(it.spectrometer->info().max_counts, 200000u);
+    port->answers[0x100928] = spectrum(1);  // old
+    port->instead_of = 0x100830;
+    port->instead = [&](const ObpMessage& request) {
+        port->answers[0x100928] = spectrum(2);
+        port->reply(request, {}, obp_response | obp_ack);
+    };
+    EXPECT_EQ(it.spectrometer->acquire().counts[0], 2u);
+}
+
+// The kernel would end a transfer there: 64 bytes in a packet of up to 512.
+TEST(ObpSpectrometer, AMessageMayComeInShortPackets) {
+    Opened it(make_sts(512));
+    it.open();
+    it.port->instead_of = 0x101100;
+    it.port->instead = [&](const ObpMessage& request) {
+        ObpMessage message = request;
+        message.flags = obp_response;
+        message.data = it.port->answers[0x101100];
+        const Bytes bytes = format_obp_message(message, true);
+        it.port->answer(0x81, Bytes(bytes.begin(), bytes.begin() + 64));
+        it.port->answer(0x81, Bytes(bytes.begin() + 64, bytes.begin() + 1000));
+        it.port->answer(0x81, Bytes(bytes.begin() + 1000, bytes.end()));
+    };
+    EXPECT_EQ(it.spectrometer->acquire().counts[1023], 7u * 1023);
+}
+
+TEST(ObpSpectrometer, AnotherOneInItsPlaceIsRefused) {
+    Opened it(make_sts());
+    it.open();
+    it.port->unplug();
+    EXPECT_EQ(fault_of_acquire(*it.spectrometer), Fault::unplugged);
+    it.port->on_reopen = [](double) { return true; };
+    it.port->answers[0x000100] = {'S', '9'};
+    try {
+        it.spectrometer->reconnect(1);
+        ADD_FAILURE() << "taken for the same";
+    } catch (const DeviceError& error) {
+        EXPECT_EQ(error.fault(), Fault::refused);
+        EXPECT_NE(error.message().find("S9"), std::string::npos) << error.message();
+    }
+}
+
 TEST(ObpSpectrometer, AnHr4SpeaksTheSecondVersion) {
     auto port = std::make_shared<FakeObp>(uint16_t{0x1004}, uint16_t{0x0999});
     port->answers[0x000100] = {'H', 'R', '4', ' '};

@@ -162,6 +162,14 @@ TEST(OoiModels, EveryDeviceThatIsListedHasAModel) {
     EXPECT_EQ(find_ooi_model(0x4000), nullptr);
 }
 
+// Memory that was never written is no name.
+TEST(StoredCalibration, TextEndsWhereNothingWasWritten) {
+    const OoiBytes erased(15, 0xFF), name = {'U', '1', ' ', 0xFF, 0xFF}, odd = {'a', 0x80, 'b', 0};
+    EXPECT_EQ(stored_text(erased), "");
+    EXPECT_EQ(stored_text(name), "U1");
+    EXPECT_EQ(stored_text(odd), "a?b");
+}
+
 TEST(StoredCalibration, WavelengthsAreAPolynomialOfThePixel) {
     const std::vector<double> nm = polynomial_wavelengths({340, 0.25, -1e-5}, 3, -1, "it");
     ASSERT_EQ(nm.size(), 3u);

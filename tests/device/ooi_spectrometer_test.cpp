@@ -70,7 +70,7 @@ class FakeUsb4000 : public FakeUsbPort {
         }
         frame.push_back(sync);
         if (speed == 0) {
-            answer(0x81, frame);
+            answer(0x82, frame);
         } else {
             answer(0x86, Bytes(frame.begin(), frame.begin() + 2048));
             answer(0x82, Bytes(frame.begin() + 2048, frame.end()));
@@ -124,7 +124,7 @@ TEST(OoiSpectrometer, TakesFramesFromBothEndpoints) {
     expect_frame(it.spectrometer->acquire(), 2);
 }
 
-TEST(OoiSpectrometer, AFullSpeedLinkUsesTheReplyEndpointAndIsTold) {
+TEST(OoiSpectrometer, AFullSpeedLinkSendsAllOfAFrameToOneEndpointAndIsTold) {
     Opened it;
     it.port->speed = 0;
     it.port->high_speed_ = false;
@@ -141,8 +141,8 @@ TEST(OoiSpectrometer, SetsTheIntegrationTimeInItsUnit) {
     it.port->writes.clear();
     it.spectrometer->set_integration_time(0.0123456);
     ASSERT_EQ(it.port->writes.size(), 1u);
-    EXPECT_EQ(it.port->writes[0].bytes, ooi_set_integration_time(12346));
-    EXPECT_DOUBLE_EQ(it.spectrometer->integration_time(), 0.012346);
+    EXPECT_EQ(it.port->writes[0].bytes, ooi_set_integration_time(12350));
+    EXPECT_DOUBLE_EQ(it.spectrometer->integration_time(), 0.01235);
     for (const double bad : {0.0, 9e-6, 65.6, -1.0, std::nan("")}) {
         EXPECT_THROW(
             {
@@ -168,6 +168,69 @@ TEST(OoiSpectrometer, WhatAnEarlierProgramLeftIsDropped) {
     it.open();
     expect_frame(it.spectrometer->acquire(), 1);
     EXPECT_TRUE(it.port->holds_nothing());
+}
+
+// The second half of a frame whose first half was dropped: it fits the first half of the next one.
+TEST(OoiSpectrometer, AFrameThatArrivesWhileItIsDrainedIsDroppedWhole) {
+    class Late : public FakeUsb4000 {
+      public:
+        size_t drain(uint8_t endpoint, double quiet_s, Deadline deadline) override {
+            const bool arrives = endpoint == 0x86 && ++drains == 3;  // after the initialisation
+            if (arrives) answer(0x86, Bytes(2048, 0x11), true);
+            const size_t dropped = FakeUsb4000::drain(endpoint, quiet_s, deadline);
+            if (arrives) {
+                Bytes rest(5632, 0x11);
+                rest.push_back(0x69);
+                answer(0x82, rest);
+            }
+            return dropped;
+        }
+        int drains = 0;
+    };
+    Opened it;
+    const auto port = std::make_shared<Late>();
+    it.port = port;
+    it.open();
+    port->instead = [&] {};
+    EXPECT_EQ(fault_of_acquire(*it.spectrometer), Fault::timeout);
+    port->drains = 0;
+    it.spectrometer->recover();
+    expect_frame(it.spectrometer->acquire(), 2);
+    EXPECT_TRUE(port->holds_nothing());
+}
+
+TEST(OoiSpectrometer, IntegrationTimesAreMultiplesOfWhatTheModelResolves) {
+    struct Case {
+        uint16_t product;
+        double asked, set;
+        uint32_t units;
+    };
+    const std::vector<Case> cases = {
+        {0x1022, 0.0000149, 0.00001, 10},   // USB4000: 10 us
+        {0x1012, 0.003456, 0.00346, 3460},  // HR4000: 10 us
+        {0x101E, 0.0034, 0.003, 3000},      // USB2000+: 1 ms, in us
+        {0x1016, 0.0036, 0.004, 4000},      // HR2000+: 1 ms, in us
+        {0x1018, 0.0084, 0.008, 8},         // QE65000: 1 ms, in ms
+    };
+    for (const Case& one : cases) {
+        Opened it;
+        it.port->product_ = one.product;
+        it.open();
+        it.port->writes.clear();
+        it.spectrometer->set_integration_time(one.asked);
+        EXPECT_EQ(it.port->writes.at(0).bytes, ooi_set_integration_time(one.units)) << one.asked;
+        EXPECT_DOUBLE_EQ(it.spectrometer->integration_time(), one.set);
+    }
+}
+
+// They take two bytes of milliseconds; 70 000 would become 4464.
+TEST(OoiModels, TheEarlyOnesTakeAtMostSixteenBitsOfMilliseconds) {
+    for (const int product : {0x1002, 0x100A, 0x1014}) {
+        const OoiModel* model = find_ooi_model(static_cast<uint16_t>(product));
+        ASSERT_NE(model, nullptr);
+        EXPECT_EQ(model->unit_us, 1000u);
+        EXPECT_LE(model->longest_us / model->unit_us, 65535u);
+    }
 }
 
 TEST(OoiSpectrometer, ALateReplyIsNotTakenForTheNextOne) {
@@ -309,6 +372,23 @@ TEST(OoiSpectrometer, IsSetUpAsItWasAfterItWasUnplugged) {
     EXPECT_TRUE(it.spectrometer->reconnect(1));
     EXPECT_EQ(it.port->writes.back().bytes, ooi_set_integration_time(30000));  // no lamp: not ours
     expect_frame(it.spectrometer->acquire(), 1);
+}
+
+TEST(OoiSpectrometer, AnotherOneInItsPlaceIsRefused) {
+    Opened it;
+    it.port->serial_ = "";
+    it.open();
+    it.port->unplug();
+    EXPECT_EQ(fault_of_acquire(*it.spectrometer), Fault::unplugged);
+    it.port->on_reopen = [](double) { return true; };
+    it.port->slots[0] = "USB4C00002";
+    try {
+        it.spectrometer->reconnect(1);
+        ADD_FAILURE() << "taken for the same";
+    } catch (const DeviceError& error) {
+        EXPECT_EQ(error.fault(), Fault::refused);
+        EXPECT_NE(error.message().find("USB4C00002"), std::string::npos) << error.message();
+    }
 }
 
 TEST(OoiSpectrometer, TheSerialNumberInItsMemoryStandsInForADescriptorWithoutOne) {
