@@ -37,6 +37,10 @@ constexpr const char* settings = R"({"pixels": 3840, "first_nm": 340, "last_nm":
 constexpr const char* small_settings = R"({"pixels": 1024, "first_nm": 340, "last_nm": 851.5,
  "max_counts": 16383, "full_scale_s": 0.03, "dark_counts": 400})";
 
+// Every wait of a silent head ends well before the watchdog of a cell.
+constexpr const char* head_bench = R"({"format": "drude-bench/1",
+ "head": "usbtmc:1209:5e11:TMC0001", "scpi": {"move_s": 3, "measure_s": 3}})";
+
 struct BenchDevices {
     const char *devices, *instrument, *settings;
 };
@@ -47,7 +51,7 @@ BenchDevices devices_of(CaptureBench bench) {
             return {"--device obp:STS00001 --device ell:DK0AELL1 --fixed-analyser 45", "bench.json",
                     small_settings};
         case CaptureBench::head:
-            return {"--device usbtmc:TMC0001", "usbtmc:1209:5e11:TMC0001", settings};
+            return {"--device usbtmc:TMC0001", "head.json", settings};
         case CaptureBench::full:
             break;
     }
@@ -216,6 +220,7 @@ CaptureResult run_capture_cell(const std::string& build, const std::string& fold
     write_file(file("recipe.json"), short_recipe);
     const BenchDevices bench = devices_of(cell.bench);
     write_file(file("settings.json"), bench.settings);
+    write_file(file("head.json"), head_bench);
     std::string faults;
     std::istringstream words(cell.faults);
     for (std::string word; words >> word;) faults += " --fault " + word;
