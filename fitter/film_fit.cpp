@@ -154,7 +154,7 @@ void warn(FitResult* result, const FitOptions& options) {
                         result->rival_thickness_nm, result->rival_chi2_excess));
     }
     if (unweighted || result->dof() <= 0) return;
-    const double reduced = result->chi2_reduced(), scatter = 3 * std::sqrt(2.0 / result->dof());
+    const double reduced = result->chi2_reduced(), scatter = 3 * chi2_scatter(*result, options);
     if (reduced > 1 + scatter) {
         result->warnings.push_back(fmt::format(
             "reduced chi-square {:.3g}, expected 1 +- {:.2g}: other constants of film or "

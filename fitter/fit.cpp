@@ -188,7 +188,7 @@ void scale_sigmas(FitResult* result) {
     for (FittedParameter& parameter : result->common) parameter.sigma *= scale;
 }
 
-void warn_about_result(FitResult* result, bool unweighted) {
+void warn_about_result(FitResult* result, const FitOptions& options) {
     std::map<std::string, std::vector<double>> refused;
     std::vector<double> bounded, vague;
     for (const FittedPoint& point : result->points) {
@@ -233,9 +233,9 @@ void warn_about_result(FitResult* result, bool unweighted) {
             "chi-square");
         return;
     }
-    if (unweighted) return;
+    if (options.unweighted) return;
     const double reduced = result->chi2_reduced();
-    const double scatter = 3 * std::sqrt(2.0 / result->dof());
+    const double scatter = 3 * chi2_scatter(*result, options);
     if (reduced > 1 + scatter) {
         result->warnings.push_back(fmt::format(
             "reduced chi-square {:.3g}, expected 1 +- {:.2g}: {}a film, roughness, a wrong angle "
@@ -256,6 +256,11 @@ const std::vector<std::string>& estimator_names() {
 const std::vector<std::string>& fit_model_names() {
     static const std::vector<std::string> names = {"bulk", "overlayer", "film", "auto"};
     return names;
+}
+
+double chi2_scatter(const FitResult& result, const FitOptions& options) {
+    if (result.dof() <= 0) return std::numeric_limits<double>::quiet_NaN();
+    return std::sqrt(2.0 / result.dof()) + options.chi2_common_scatter;
 }
 
 FitResult fit_measurement(const Measurement& measurement, const FitOptions& options) {
@@ -337,7 +342,7 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
         surface.name = "the fitted surface";
         result.layers.push_back(roughness_layer(surface, options.roughness_nm.value));
     }
-    warn_about_result(&result, options.unweighted);
+    warn_about_result(&result, options);
     return result;
 }
 

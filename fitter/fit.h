@@ -77,6 +77,9 @@ struct FitOptions {
     // What a row far from the model counts: "none" takes squares; huber, cauchy and tukey let it
     // count less (robust_fit.h). Not with inversion, the model auto, or `unweighted`.
     std::string robust = "none";
+    // What errors that rows share add to the standard deviation of the reduced chi-square, at least
+    // 0: chi2_common_scatter() (common_error.h). It moves no fit, only what is said of chi-square.
+    double chi2_common_scatter = 0;
     // Factors on the squared residuals, one for every row of the measurement; empty: 1 each.
     std::vector<double> weights;
     // Rows outside are left out; 0 and infinity take all.
@@ -85,6 +88,11 @@ struct FitOptions {
 
 const std::vector<std::string>& estimator_names();
 const std::vector<std::string>& fit_model_names();
+
+// The standard deviation that the reduced chi-square of a right model with right standard
+// deviations has about 1, Gaussian errors taken for granted; NaN where there are no more data than
+// parameters.
+double chi2_scatter(const FitResult& result, const FitOptions& options);
 
 // Fits without start values. The models bulk and overlayer take every wavelength by itself, with
 // n >= 1e-6 and k >= 0, or follow a dispersion formula; film takes all wavelengths together, from a

@@ -14,7 +14,8 @@ double distance_from_one(const FitResult& fit) {
 }
 
 // "" where `next` is the better model, otherwise what speaks against it.
-std::string objection(const FitResult& now, const FitResult& next, bool unweighted) {
+std::string objection(const FitResult& now, const FitResult& next, const FitOptions& options) {
+    const bool unweighted = options.unweighted;
     if (next.data < now.data) {
         return fmt::format("it explains {} data, fewer than {}", next.data, now.data);
     }
@@ -29,7 +30,7 @@ std::string objection(const FitResult& now, const FitResult& next, bool unweight
             return fmt::format("its {} ends at a bound, {:.4g}", parameter.name, parameter.value);
         }
     }
-    const double scatter = 3 * std::sqrt(2.0 / next.dof());
+    const double scatter = 3 * chi2_scatter(next, options);
     const bool fits = !unweighted && distance_from_one(next) <= scatter;
     // More data, or a criterion that cannot be had: the fit itself decides.
     if (next.data > now.data || !(now.dof() > 0)) {
@@ -61,7 +62,7 @@ class Ladder {
             rung.parameters = next.parameters;
             rung.chi2_reduced = next.chi2_reduced();
             rung.bic = bayesian_criterion(next, unweighted_);
-            if (best_) rung.objection = objection(*best_, next, unweighted_);
+            if (best_) rung.objection = objection(*best_, next, options);
             rung.taken = rung.objection.empty();
             if (rung.taken) {
                 best_ = std::move(next);

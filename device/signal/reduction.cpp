@@ -120,7 +120,8 @@ void warn(const std::map<double, AngleScans>& angles, const Calibration& calibra
     if (retarder && !calibration.retardance_deg.known()) {
         warnings->push_back(
             "the calibration does not hold the retarder: it is taken for a quarter-wave plate that "
-            "tells Delta above 180 degrees from below, nothing else; calibrate straight through");
+            "tells Delta above 180 degrees from below, nothing else (capture --kind "
+            "straight-through)");
     }
     if (rows > 0 && lower == rows) {
         warnings->push_back(

@@ -74,9 +74,9 @@ void add_quality(const Reduction& reduction, Header* header) {
                     worst.step_jitter_deg, worst.saturated, reduction.quality.size()));
     std::vector<std::string> common;
     for (size_t i = 0; i < reduction.angles_deg.size(); ++i) {
-        common.push_back(fmt::format("{}: {:.2g} {:.2g}", format_double(reduction.angles_deg[i]),
-                                     reduction.common_sigma_psi_deg[i],
-                                     reduction.common_sigma_delta_deg[i]));
+        common.push_back(fmt::format("{}: {} {}", format_double(reduction.angles_deg[i]),
+                                     format_double(reduction.common_sigma_psi_deg[i]),
+                                     format_double(reduction.common_sigma_delta_deg[i])));
     }
     header->emplace_back("sigma_common_deg",
                          fmt::format("{} (angle: psi delta; shared by all wavelengths of an angle, "
@@ -180,6 +180,12 @@ JournalReduction reduce_journal(const Journal& journal, const JournalReductionOp
     if (from.recipe.kind != RecipeKind::psi_delta) {
         reduce_to_calibration(journal, scans, reduction, options.calibration, header, &result);
         return result;
+    }
+    if (options.calibration_name.empty() && options.calibration.provenance.empty()) {
+        result.warnings.emplace_back(
+            "the bench is not calibrated: what the source's polarisation and azimuths that are off "
+            "add to Psi and Delta is in no standard deviation; capture --kind straight-through, "
+            "then --kind azimuth, and reduce the journal again with --calibration");
     }
     result.reduction = reduce_scans(scans, from.spectrometer, options.calibration, reduction);
     const auto& own = result.reduction.warnings;

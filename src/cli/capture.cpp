@@ -186,11 +186,12 @@ Command capture_command() {
         "Faults of the bus are tried again; an instrument that is unplugged is waited for. The "
         "drivers are verified against virtual instruments; no hardware was used.";
     command.example =
-        "$ drude capture --instrument virtual:Cu-McPeak --angles 60,70 -o cu.csv\n"
+        "$ drude capture --kind straight-through --instrument virtual:Au-McPeak -o straight.json\n"
+        "$ drude capture --kind azimuth --calibration straight.json \\\n"
+        "      --instrument virtual:Au-McPeak -o calibration.json\n"
+        "$ drude capture --calibration calibration.json --instrument virtual:Cu-McPeak \\\n"
+        "      --angles 60,70 -o cu.csv\n"
         "$ drude fit cu.csv -o cu.json\n"
-        "$ drude capture --kind straight-through --instrument bench.json -o straight.json\n"
-        "$ drude capture --kind azimuth --calibration straight.json --instrument bench.json \\\n"
-        "      -o calibration.json\n"
         "$ drude capture --kind lobe --angles 45 --offsets -20:20:1 --solid-angle 2.4e-4 \\\n"
         "      --half-angle 0.5 --instrument bench.json -o lobe.csv\n";
     command.declare = [](OptionSet& set, const CommonOptions& common) {

@@ -18,6 +18,7 @@
 #include "cli/fit_output.h"
 #include "cli/fit_paper.h"
 #include "cli/fit_statistics.h"
+#include "fitter/common_error.h"
 #include "fitter/fitted_material.h"
 #include "fitter/import.h"
 #include "fitter/lobe_fit.h"
@@ -208,6 +209,16 @@ int run_lobe_fit(const FitCommandOptions& options, const CommonOptions& common) 
     return 0;
 }
 
+// What the wavelengths of an angle share belongs to a row's error as much as its own noise.
+void weigh_by_common_error(FitReport* report) {
+    if (report->options.unweighted) return;
+    report->common_errors = common_errors(report->measurement);
+    if (report->common_errors.empty()) return;
+    report->options.chi2_common_scatter =
+        chi2_common_scatter(report->measurement, report->common_errors);
+    report->measurement = with_common_error(std::move(report->measurement), report->common_errors);
+}
+
 int run_fit(const FitCommandOptions& options, const OptionSet& given, const CommonOptions& common) {
     // Everything is written at the end and at once: there is nothing to save on the way.
     let_interrupts_end();
@@ -223,8 +234,15 @@ int run_fit(const FitCommandOptions& options, const OptionSet& given, const Comm
     report.options = make_fit_options(options, common);
     // With a lobe scan the question has an answer.
     if (!options.lobe_scan.empty()) report.options.lobe.clear();
+    weigh_by_common_error(&report);
     report.fit = fit_measurement(report.measurement, report.options);
-    const std::vector<std::string> imported = import_warnings(report.measurement);
+    std::vector<std::string> imported = import_warnings(report.measurement);
+    if (report.measurement.header_value("calibration") == "none") {
+        imported.emplace_back(
+            "the measurement was captured without a calibration of the bench: what the source's "
+            "polarisation and azimuths that are off add to Psi and Delta is in no standard "
+            "deviation, here neither ('drude help capture')");
+    }
     report.fit.warnings.insert(report.fit.warnings.begin(), imported.begin(), imported.end());
     run_fit_statistics(options.statistics, &report);
     Material material = fitted_material(report.fit, report.measurement, options.name,
@@ -238,6 +256,9 @@ int run_fit(const FitCommandOptions& options, const OptionSet& given, const Comm
         warn(lobes->warnings);
     }
     write_fit_figures(options.statistics, report);
+    if (!report.common_errors.empty()) {
+        material.provenance.warnings.emplace_back(weighed_by_common_error);
+    }
     if (common.json) {
         print_fit_json(report, material, options.output, lobes ? &*lobes : nullptr);
     } else {
@@ -263,7 +284,10 @@ Command fit_command() {
         "start values are needed: a closed form gives them.\n\n"
         "Estimators: psi-delta uses both angles, weighted by their standard deviations; rho2 uses "
         "tan^2 Psi alone, as Berger, Weidlich, Wilkie and Magnor did in 2012, and needs two angles "
-        "or more; inversion solves each angle by itself and averages.\n\n"
+        "or more; inversion solves each angle by itself and averages. "
+        "An error that the wavelengths of an angle share, as drude capture states it in the "
+        "header (sigma_common_deg), counts among the standard deviations of every row, and widens "
+        "what is expected of the reduced chi-square.\n\n"
         "The model bulk is a bare surface: an oxide or roughness is absorbed into n and k, which "
         "are therefore pseudo-values. The model overlayer fits n and k below layers of a material "
         "and thickness that you know (--overlayer, the first is the outermost). The model film "

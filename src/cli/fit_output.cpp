@@ -62,6 +62,30 @@ ordered_json layers(const FitResult& fit) {
     return list;
 }
 
+ordered_json common_error_list(const std::vector<CommonError>& errors) {
+    ordered_json list = ordered_json::array();
+    for (const CommonError& error : errors) {
+        list.push_back({{"angle_deg", error.angle_deg},
+                        {"sigma_psi_deg", error.sigma_psi_deg},
+                        {"sigma_delta_deg", error.sigma_delta_deg}});
+    }
+    return list;
+}
+
+// Why neighbouring wavelengths deviate alike, and by how much.
+void print_common_errors(const std::vector<CommonError>& errors) {
+    if (errors.empty()) return;
+    double psi = 0, delta = 0;
+    for (const CommonError& error : errors) {
+        psi = std::max(psi, error.sigma_psi_deg);
+        delta = std::max(delta, error.sigma_delta_deg);
+    }
+    fmt::print(
+        "weighed by the noise and by what the wavelengths of an angle share (sigma_common_deg: "
+        "Psi up to {:.2g}, Delta up to {:.2g} degrees); n and k of neighbours deviate alike\n",
+        psi, delta);
+}
+
 void print_table(const FitResult& fit) {
     fmt::print("{:>10}  {:>10} {:>9}  {:>10} {:>9}  {:>8}  {:>9}\n", "nm", "n", "+-", "k", "+-",
                "chi2/dof", "condition");
@@ -162,6 +186,10 @@ void print_fit_json(const FitReport& report, const Material& material, const std
                              {"pseudo", fit.layers.empty()},
                              {"layers", layers(fit)},
                              {"warnings", fit.warnings}};
+    if (fit.dof() > 0) document["chi2_scatter"] = chi2_scatter(fit, report.options);
+    if (!report.common_errors.empty()) {
+        document["common_errors"] = common_error_list(report.common_errors);
+    }
     if (!fit.dispersion.empty()) document["dispersion"] = fit.dispersion;
     if (!fit.ladder.empty()) document["ladder"] = ladder(fit);
     if (!fit.substrate.wavelength_nm.empty()) document["substrate"] = fit.substrate.name;
@@ -208,8 +236,9 @@ void print_fit_text(const FitReport& report, bool with_table) {
                    fit.robust, fit.dof(), fit.chi2_reduced(), fit.rows_down_weighted);
     } else if (fit.dof() > 0) {
         fmt::print("reduced chi-square {:.4f} with {} degrees of freedom (1 +- {:.2g} expected)\n",
-                   fit.chi2_reduced(), fit.dof(), std::sqrt(2.0 / fit.dof()));
+                   fit.chi2_reduced(), fit.dof(), chi2_scatter(fit, report.options));
     }
+    print_common_errors(report.common_errors);
     print_statistics(report, with_table);
 }
 

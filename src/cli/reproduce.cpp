@@ -10,8 +10,8 @@
 #include "cli/command_list.h"
 #include "cli/json_output.h"
 #include "cli/report_output.h"
+#include "fitter/common_error.h"
 #include "materials/lobe.h"
-#include "report/bench_capture.h"
 #include "report/study.h"
 #include "report/study_lobe.h"
 
@@ -196,13 +196,13 @@ Command reproduce_command() {
     command.declare = [](OptionSet& set, const CommonOptions& common) {
         const auto options = std::make_shared<StudyOptions>();
         set.option("-o,--output", options->folder, "the folder to write to");
-        set.option("--environment", options->environment, "a picture's file (default: courtyard)");
-        set.choice("--lobe", options->lobe, lobe_names(), "microfacet lobe (default blinn-phong)");
-        set.choice("--masking", options->masking, masking_names(), "default v-groove");
-        set.option("--beta", options->beta, "roughness in rad (default 0.011774; 0: a mirror)");
-        set.option("--spp", options->samples_per_pixel, "samples a pixel (default 64)");
-        set.option("--resolution", options->resolution, "pixels a side (default 512)");
-        set.option("--seed", options->seed, "of the benches and samples (default 1)");
+        set.option("--environment", options->environment, "a picture's file");
+        set.choice("--lobe", options->lobe, lobe_names(), "microfacet lobe of the polished pairs");
+        set.choice("--masking", options->masking, masking_names(), "of the microfacets");
+        set.option("--beta", options->beta, "roughness in rad; 0: a mirror");
+        set.option("--spp", options->samples_per_pixel, "samples a pixel");
+        set.option("--resolution", options->resolution, "pixels a side");
+        set.option("--seed", options->seed, "of the benches and samples");
         set.flag("--spectral", options->spectral, "10 nm layers of S0 to S3 in every EXR");
         return [options, &common] {
             if (options->folder.empty()) {

@@ -53,14 +53,6 @@ void describe(const SweepOutcome& outcome, const JournalReduction& reduction, St
     about->warnings = reduction.warnings;
 }
 
-// The common error of an angle; zeros where none is stated.
-CommonError common_at(const std::vector<CommonError>& common, double angle_deg) {
-    for (const CommonError& error : common) {
-        if (error.angle_deg == angle_deg) return error;
-    }
-    return {angle_deg, 0, 0};
-}
-
 void write(const CaptureSite& site, const std::string& file, const std::string& text) {
     const std::string name = site.within + "/" + file;
     write_file(site.folder + "/" + name, text);
@@ -133,44 +125,6 @@ BenchCalibration calibrate_bench(const CaptureSite& site) {
     write(site, "calibration.json", format_calibration(result.calibration));
     write(site, "bench.json", virtual_bench_file(site, "reference.json", "calibration.json"));
     return result;
-}
-
-Measurement with_common_error(Measurement measurement, const std::vector<CommonError>& common) {
-    for (MeasurementRow& row : measurement.rows) {
-        const CommonError error = common_at(common, row.angle_deg);
-        row.sigma_psi_deg = std::hypot(row.sigma_psi_deg, error.sigma_psi_deg);
-        row.sigma_delta_deg = std::hypot(row.sigma_delta_deg, error.sigma_delta_deg);
-    }
-    return measurement;
-}
-
-double chi2_slack(const Measurement& noise_alone, const std::vector<CommonError>& common,
-                  double dof) {
-    double share = 0;
-    for (const MeasurementRow& row : noise_alone.rows) {
-        const CommonError e = common_at(common, row.angle_deg);
-        const auto part = [](double shared, double noise) {
-            const double both = shared * shared + noise * noise;
-            return both > 0 ? shared * shared / both : 0;
-        };
-        share += (part(e.sigma_psi_deg, row.sigma_psi_deg) +
-                  part(e.sigma_delta_deg, row.sigma_delta_deg)) /
-                 (2 * static_cast<double>(noise_alone.rows.size()));
-    }
-    const double draws = 2 * static_cast<double>(noise_alone.angles().size()) - 2;
-    return 4 * (std::sqrt(2 / std::max(1.0, dof)) + share * std::sqrt(2 / std::max(1.0, draws)));
-}
-
-double chi2_by_common_error(const Measurement& noise_alone,
-                            const std::vector<CommonError>& common) {
-    double sum = 0;
-    for (const MeasurementRow& row : noise_alone.rows) {
-        const CommonError e = common_at(common, row.angle_deg);
-        sum += (std::pow(e.sigma_psi_deg / row.sigma_psi_deg, 2) +
-                std::pow(e.sigma_delta_deg / row.sigma_delta_deg, 2)) /
-               2;
-    }
-    return 1 + sum / std::max<double>(1, static_cast<double>(noise_alone.rows.size()));
 }
 
 }  // namespace drude

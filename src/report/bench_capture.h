@@ -46,18 +46,4 @@ struct BenchCalibration {
 };
 BenchCalibration calibrate_bench(const CaptureSite& site);
 
-// The same rows with the error that the wavelengths of an angle share among their standard
-// deviations: the two are independent, so that their squares add.
-Measurement with_common_error(Measurement measurement, const std::vector<CommonError>& common);
-
-// How far a reduced chi-square may lie from 1: four standard deviations of the noise, sqrt(2/dof),
-// and of the common errors, which are two draws for each angle less two that n and k take up,
-// however many wavelengths share them; these by the share of the variances that they are.
-double chi2_slack(const Measurement& noise_alone, const std::vector<CommonError>& common,
-                  double dof);
-
-// What the reduced chi-square with the noise alone is expected to be because of the common error:
-// 1 + the mean of (common / noise)^2.
-double chi2_by_common_error(const Measurement& noise_alone, const std::vector<CommonError>& common);
-
 }  // namespace drude

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/bench_capture.h"
+#include "fitter/common_error.h"
 #include "report/claim_figures.h"
 #include "report/claims.h"
 

@@ -78,6 +78,7 @@ StudyFilm study_film(CaptureSite site, const Calibration& calibration, const Pro
 
     FitOptions options;
     options.threads = threads;
+    options.chi2_common_scatter = chi2_common_scatter(measurement, film.capture.common);
     const FitResult bare = fit_measurement(weighed, options);
     film.bare_chi2 = bare.chi2_reduced();
     film.bare_dof = bare.dof();

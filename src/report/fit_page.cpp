@@ -51,7 +51,7 @@ std::string goodness(const FitReport& report) {
             fit.robust, fit.dof(), fit.chi2_reduced(), fit.rows_down_weighted);
     }
     return fmt::format("χ²/dof = {:.4f} with {} degrees of freedom, 1 ± {:.2g} expected",
-                       fit.chi2_reduced(), fit.dof(), std::sqrt(2.0 / fit.dof()));
+                       fit.chi2_reduced(), fit.dof(), chi2_scatter(fit, report.options));
 }
 
 void show_summary(const FitReport& report, Page* page) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fitter/bootstrap.h"
+#include "fitter/common_error.h"
 #include "fitter/literature.h"
 #include "fitter/profile.h"
 #include "fitter/substrate_choice.h"
@@ -15,8 +16,10 @@
 namespace drude {
 
 struct FitReport {
-    std::string name;  // of the material
-    Measurement measurement;
+    std::string name;         // of the material
+    Measurement measurement;  // as it was weighed
+    // Among the standard deviations of `measurement`; empty where none was stated.
+    std::vector<CommonError> common_errors;
     FitOptions options;
     FitResult fit;
     std::optional<LiteratureComparison> literature;

@@ -102,9 +102,7 @@ class StudyRun {
         provenance.measurement = "measurement.csv";
         provenance.command = options_.command_line;
         provenance.version = DRUDE_VERSION;
-        provenance.warnings = {
-            "the rows were weighed by their noise and by sigma_common_deg of the measurement, the "
-            "error that the wavelengths of an angle share"};
+        provenance.warnings = {weighed_by_common_error};
         return provenance;
     }
 
@@ -158,6 +156,7 @@ class StudyRun {
 
         FitOptions fit_options;
         fit_options.threads = options_.threads;
+        fit_options.chi2_common_scatter = chi2_common_scatter(measurement, metal.capture.common);
         const Measurement weighed = with_common_error(measurement, metal.capture.common);
         const FitResult fit = fit_measurement(weighed, fit_options);
         metal.reduced_chi2 = fit.chi2_reduced();

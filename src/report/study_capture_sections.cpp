@@ -8,7 +8,6 @@
 #include <set>
 
 #include "fitter/paper_table.h"
-#include "report/bench_capture.h"
 #include "report/fit_plots.h"
 #include "report/study_fit.h"
 #include "report/study_lobe.h"

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fitter/common_error.h"
 #include "fitter/lobe_fit.h"
 #include "materials/lobe_scan.h"
 #include "materials/material.h"
@@ -13,12 +14,6 @@
 #include "report/pair_statistics.h"
 
 namespace drude {
-
-// The error of Psi and Delta that all wavelengths of one angle of incidence share, as the reduction
-// states it: standard deviations in degrees, from the mounts' repeatability and the calibration.
-struct CommonError {
-    double angle_deg = 0, sigma_psi_deg = 0, sigma_delta_deg = 0;
-};
 
 // How a sweep went on the virtual bench, beside what its measurement says itself.
 struct StudyCapture {

@@ -1,6 +1,6 @@
 #include "report/study_fit.h"
 
-#include "report/bench_capture.h"
+#include "fitter/common_error.h"
 
 namespace drude {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/bench_capture.h"
+#include "fitter/common_error.h"
 #include "report/fit_plots.h"
 #include "report/study_fit.h"
 #include "report/study_sections.h"

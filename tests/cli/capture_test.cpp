@@ -45,7 +45,17 @@ TEST(Capture, MeasuresTheVirtualBenchAndSaysHow) {
     }
     EXPECT_EQ(text.find("# date"), std::string::npos);
     // What it writes is what fits read.
-    EXPECT_EQ(run_drude(folder, "fit m.csv -q -o m.json").status, 0);
+    const ProgramRun fit = run_drude(folder, "fit m.csv -q --json -o m.json");
+    ASSERT_EQ(fit.status, 0) << fit.err;
+    const json fitted = json::parse(fit.out);
+    EXPECT_EQ(fitted["common_errors"][0]["angle_deg"], 70);
+    EXPECT_EQ(fitted["common_errors"][0]["sigma_psi_deg"], document["sigma_common_psi_deg"][0]);
+    EXPECT_EQ(fitted["common_errors"][0]["sigma_delta_deg"], document["sigma_common_delta_deg"][0]);
+    EXPECT_NE(fit.err.find("without a calibration of the bench"), std::string::npos) << fit.err;
+    const std::string material = read_text(folder.file("m.json"));
+    for (const char* said : {"sigma_common_deg", "without a calibration"}) {
+        EXPECT_NE(material.find(said), std::string::npos) << said;
+    }
 }
 
 TEST(Capture, TheSameSeedGivesTheSameBytes) {

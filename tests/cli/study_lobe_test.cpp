@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "markup_checker.h"
-#include "report/bench_capture.h"
 #include "report/capture_record.h"
 #include "report/study_samples.h"
 
@@ -113,37 +112,6 @@ TEST(CaptureRecord, ComesBack) {
     refuse("\"saturated\"", "\"saturatet\"");
     refuse("\"tied\":true", "\"tied\":1");
     refuse("\"18446744073709551615\"", "\"18446744073709551616\"");
-}
-
-Measurement two_angles() {
-    Measurement measurement;
-    for (const double nm : {500.0, 600.0}) {
-        for (const double angle : {45.0, 70.0}) {
-            MeasurementRow row;
-            row.wavelength_nm = nm;
-            row.angle_deg = angle;
-            row.psi_deg = 40;
-            row.delta_deg = 100;
-            row.sigma_psi_deg = 0.03;
-            row.sigma_delta_deg = 0.06;
-            measurement.rows.push_back(row);
-        }
-    }
-    return measurement;
-}
-
-TEST(CommonErrors, JoinTheNoiseInSquares) {
-    const Measurement measurement = two_angles();
-    const std::vector<CommonError> common = {{45, 0.04, 0.08}};
-    const Measurement both = with_common_error(measurement, common);
-    EXPECT_NEAR(both.rows[0].sigma_psi_deg, 0.05, 1e-15);
-    EXPECT_NEAR(both.rows[0].sigma_delta_deg, 0.1, 1e-15);
-    EXPECT_EQ(both.rows[1].sigma_psi_deg, 0.03);  // at 70 degrees none is stated
-    // Half the rows with (4/3)^2, and 16/25 of their variance.
-    EXPECT_NEAR(chi2_by_common_error(measurement, common), 1 + 16.0 / 18, 1e-12);
-    EXPECT_NEAR(chi2_slack(measurement, common, 200), 4 * (0.1 + 0.32), 1e-12);
-    EXPECT_NEAR(chi2_slack(measurement, {}, 200), 0.4, 1e-12);
-    EXPECT_EQ(chi2_by_common_error(measurement, {}), 1);
 }
 
 TEST(StudySamples, AreFiveDifferentSurfaces) {
