@@ -23,10 +23,10 @@ CommonError common_at(const std::vector<CommonError>& common, double angle_deg) 
 
 // Takes the text up to `end` and the blanks around it off `rest`.
 std::string_view take(std::string_view* rest, char end) {
+    while (!rest->empty() && rest->front() == ' ') rest->remove_prefix(1);
     const size_t length = std::min(rest->find(end), rest->size());
     std::string_view word = rest->substr(0, length);
     rest->remove_prefix(std::min(length + 1, rest->size()));
-    while (!word.empty() && word.front() == ' ') word.remove_prefix(1);
     while (!word.empty() && word.back() == ' ') word.remove_suffix(1);
     return word;
 }
