@@ -148,7 +148,7 @@ class ReferenceTracer {
     Reflection<double> facet_reflection(int material, double nm, double cosine) const {
         const auto& metal = std::get<ConductorMaterial>(scene_.materials[material]);
         if (metal.reflectance) {
-            const double r = spectrum_at(*metal.reflectance, nm);
+            const double r = spectrum_at(metal.reflectance->constant, nm);
             return {r, r, -r, 0};
         }
         return reflect(metal.surface, nm, cosine);
@@ -169,7 +169,7 @@ class ReferenceTracer {
                    const Vec& out, const Vec& out_frame) const {
         const double cosine = glm::dot(in, n);
         if (const auto* diffuse = std::get_if<DiffuseMaterial>(&scene_.materials[material])) {
-            const double r = cosine > 0 ? spectrum_at(diffuse->reflectance, nm) * cosine / pi : 0;
+            const double r = cosine > 0 ? spectrum_at(diffuse->reflectance.constant, nm) * cosine / pi : 0;
             return Matrix::diagonal(r, 0, 0, 0);
         }
         const auto e = lobes_[material].evaluate(to_local(n, out), to_local(n, in));

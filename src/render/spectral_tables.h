@@ -53,8 +53,8 @@ struct SpectralTables {
             PackedSpectrum<N> diffuse;
             if (const auto* metal = std::get_if<ConductorMaterial>(&material)) {
                 conductor = conductor_tables(*metal);
-            } else {
-                diffuse = PackedSpectrum<N>(std::get<DiffuseMaterial>(material).reflectance);
+            } else if (const auto* plain = std::get_if<DiffuseMaterial>(&material)) {
+                diffuse = PackedSpectrum<N>(plain->reflectance.constant);
             }
             conductors.push_back(std::move(conductor));
             diffuse_reflectance.push_back(std::move(diffuse));
@@ -97,7 +97,7 @@ struct SpectralTables {
                                  : Microfacets<float>(surface.lobe, surface.masking, surface.beta);
         if (metal.reflectance) {
             tables.has_fixed_reflectance = true;
-            tables.fixed_reflectance = PackedSpectrum<N>(*metal.reflectance);
+            tables.fixed_reflectance = PackedSpectrum<N>(metal.reflectance->constant);
             return tables;
         }
         const DenseIndex index = dense(surface.substrate);

@@ -225,7 +225,7 @@ ConductorMaterial build_conductor(ParameterList& list, const std::string& prefix
     if (prefix.empty() && list.has("material")) {
         conductor.surface = named_material(list, context);
     } else if (list.has("reflectance")) {
-        conductor.reflectance = reflectance(list, "reflectance", 1, context);
+        conductor.reflectance = SpectrumValue{reflectance(list, "reflectance", 1, context)};
         conductor.surface.name = "reflectance";
         conductor.surface.substrate = published_set("Cu");
     } else {

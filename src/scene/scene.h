@@ -16,8 +16,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "materials/material.h"
 #include "materials/spectrum.h"
+#include "scene/surfaces.h"
+#include "scene/textures.h"
 
 namespace drude {
 
@@ -47,26 +48,24 @@ struct Shape {
     Place place;
 };
 
-// ---- materials ---------------------------------------------------------------------------------
-
-struct ConductorMaterial {
-    // Substrate, films, lobe, masking and beta. Where the scene gives pbrt's roughness the lobe is
-    // Trowbridge-Reitz with Smith masking and `alpha` holds pbrt's alpha, which beta cannot always
-    // express; alpha < 0 means "use surface.beta".
-    Material surface;
-    double alpha = -1;
-    // Instead of a metal: pbrt's "reflectance", the same at every angle for s and p, with the phase
-    // of an ideal conductor (Delta = 180 degrees: C = -R, S = 0).
-    std::optional<DenseSpectrum> reflectance;
-};
-
-struct DiffuseMaterial {
-    DenseSpectrum reflectance;  // in [0, 1]; a perfect depolariser
-};
-
-using SurfaceMaterial = std::variant<ConductorMaterial, DiffuseMaterial>;
-
 // ---- lights ------------------------------------------------------------------------------------
+
+// How polarised a light is: its degree of linear polarisation, and the angle of it in the light's
+// own frame (conventions: zero is the object's x axis projected perpendicular to the ray; infinite
+// lights: normalize(cross(ray direction from the viewer, light-space z))), counter-clockwise seen
+// looking towards the source.
+struct LightPolarisation {
+    double dop = 0;  // in [0, 1]
+    double aolp_deg = 0;
+    bool none() const { return !(dop > 0); }
+};
+
+// The single-scattering polarisation of a clear sky: dop = maximum * sin^2 g / (1 + cos^2 g), g the
+// angle from the sun, at right angles to the plane through ray and sun (Rayleigh 1871).
+struct RayleighPattern {
+    glm::dvec3 sun{0, 0, 1};  // direction of the sun in light space, unit
+    double maximum = 1;       // of dop, in [0, 1]
+};
 
 // Radiance that a lat-long (width = 2 height) or equal-area octahedral (square) image gives, or a
 // constant.
@@ -77,33 +76,58 @@ struct InfiniteLight {
     std::shared_ptr<const Image> picture;
     DenseSpectrum radiance;  // of a constant light, scale included
     double scale = 1;        // of an image
+    LightPolarisation polarisation;
+    std::optional<RayleighPattern> rayleigh;  // instead of `polarisation`
     Place place;
 };
 
 struct DistantLight {
-    DenseSpectrum irradiance;  // normal irradiance, scale included
-    glm::dvec3 direction;      // in which its light travels, world space, unit
+    DenseSpectrum irradiance;    // normal irradiance, scale included
+    glm::dvec3 direction;        // in which its light travels, world space, unit
+    glm::dvec3 x_axis{1, 0, 0};  // the light's x axis in world space
+    LightPolarisation polarisation;
+    Place place;
+};
+
+// A point, or a spot: a cone of light around `axis` that falls off between two angles as pbrt-v4's
+// smooth step of the cosine.
+struct PointLight {
+    DenseSpectrum intensity{};  // W sr^-1 nm^-1, scale included
+    glm::dvec3 position{0};     // world space
+    glm::dvec3 axis{0, 0, 1};   // world space, unit; of a spot
+    glm::dvec3 x_axis{1, 0, 0};
+    // Cosines of the angles where it ends and where it begins to fall; a point light has -1, -1.
+    double cos_end = -1, cos_start = -1;
+    LightPolarisation polarisation;
     Place place;
 };
 
 struct AreaLight {
     DenseSpectrum radiance;  // scale included
     bool two_sided = false;
+    LightPolarisation polarisation;
     Place place;
 };
 
 // ---- camera, film, sampling --------------------------------------------------------------------
 
+enum class CameraKind { perspective, orthographic, spherical };
 struct Camera {
+    CameraKind kind = CameraKind::perspective;
     glm::dmat4 world_from_camera{1};  // camera looks along +z, x right, y up
     double fov_deg = 90;              // of the shorter side of the picture
     // screen window as pbrt has it: x0, x1, y0, y1 on the plane z = 1 / tan(fov/2)
+    // (orthographic: in the camera's own units)
     double screen_window[4] = {-1, 1, -1, 1};
+    double lens_radius = 0, focal_distance = 1e6;  // a thin lens; radius 0 is a pinhole
+    bool equal_area = true;                        // spherical: else equirectangular
 };
 
 struct Film {
     int width = 1280, height = 720;
-    std::string filename;  // as the scene names it; empty where it does not
+    std::string filename;   // as the scene names it; empty where it does not
+    bool spectral = false;  // Film "spectral": wants the spectral layers
+    bool gbuffer = false;   // Film "gbuffer": wants geometry layers
 };
 
 enum class FilterKind { box, gaussian, triangle, mitchell };
@@ -124,10 +148,13 @@ struct Scene {
     uint64_t seed = 0;
     int max_depth = 5;  // reflections of a path at most
     std::vector<SurfaceMaterial> materials;
+    std::vector<Texture<NumberValue>> number_textures;
+    std::vector<Texture<SpectrumValue>> spectrum_textures;
     std::vector<Shape> shapes;
     std::vector<AreaLight> area_lights;
     std::vector<InfiniteLight> infinite_lights;
     std::vector<DistantLight> distant_lights;
+    std::vector<PointLight> point_lights;
     std::vector<std::string> warnings;  // for people: substitutions, ranges held, names resolved
     // Those of the warnings that say: pbrt-v4 would have drawn something else here.
     std::vector<std::string> stand_ins;

@@ -13,7 +13,7 @@ SceneReader::SceneReader(const std::string& file)
     : assets_(file), context_{assets_, messages_, textures_} {
     scene_.file = file;
     // Index 0 is pbrt's default material.
-    scene_.materials.emplace_back(DiffuseMaterial{constant_spectrum(0.5)});
+    scene_.materials.emplace_back(DiffuseMaterial{{constant_spectrum(0.5)}});
 }
 
 void SceneReader::transform(const glm::dmat4& matrix, const Place& place) {
