@@ -69,7 +69,6 @@ std::vector<Node> cone_nodes(const Direction& i, double axis_angle, double half_
 }  // namespace
 
 LobeScanModel::LobeScanModel(const LobeScan& scan, const Material& metal) {
-    constexpr double degree = pi / 180;
     // Of V-grooves the masking knows no beta; any lobe will do.
     const Microfacets<double> masking(Lobe::beckmann, Masking::v_groove, 0.1);
     std::map<std::pair<double, double>, size_t> positions;

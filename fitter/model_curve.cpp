@@ -11,8 +11,6 @@ namespace drude {
 
 namespace {
 
-constexpr double degree = pi / 180;
-
 double angle_offset_deg(const FitResult& fit) {
     const FittedParameter* offset = fit.find("angle offset");
     return offset && offset->identifiable ? offset->value : 0;

@@ -13,8 +13,6 @@ namespace drude {
 
 namespace {
 
-constexpr double degree = pi / 180;
-
 // What one wavelength says of the offset.
 struct Share {
     double information = 0;         // squared length of the derivative outside the span of n and k

@@ -8,7 +8,6 @@ namespace drude {
 
 AnglePoint make_angle_point(double angle_deg, double psi_deg, double delta_deg,
                             double sigma_psi_deg, double sigma_delta_deg) {
-    constexpr double degree = pi / 180;
     AnglePoint point;
     point.cos_theta = std::cos(angle_deg * degree);
     point.sin_theta = std::sin(angle_deg * degree);

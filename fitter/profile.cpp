@@ -16,8 +16,6 @@ namespace drude {
 
 namespace {
 
-constexpr double degree = pi / 180;
-
 void check(const FitOptions& options, const FitResult& fit) {
     if (options.estimator == "inversion") {
         user_error(

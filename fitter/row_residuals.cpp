@@ -14,7 +14,6 @@ namespace {
 
 // A surface of this Psi and Delta; how much it reflects does not enter a residual.
 Reflection<double> reflection_of(const MeasurementRow& row) {
-    constexpr double degree = pi / 180;
     const double c = std::cos(row.psi_deg * degree), s = std::sin(row.psi_deg * degree);
     Reflection<double> r;
     r.Rs = c * c;

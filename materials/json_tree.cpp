@@ -1,9 +1,10 @@
 #include "materials/json_tree.h"
 
 #include <algorithm>
-#include <cstdint>
+#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <tuple>
 
 #include "base/numbers.h"
@@ -265,6 +266,25 @@ std::string JsonValue::string() const {
 double JsonValue::number() const {
     expect(JsonNode::Kind::number);
     return node_->number;
+}
+
+int64_t JsonValue::whole_number(double first, double last) const {
+    const double value = number();
+    // Before the conversion, which is undefined outside the type's range.
+    if (!(value >= first && value <= last && value == std::floor(value))) {
+        user_error_at(place(), "{}: found {}, expected a whole number from {:.0f} to {:.0f}",
+                      shown(), format_double(value), first, last);
+    }
+    return static_cast<int64_t>(value);
+}
+
+uint64_t JsonValue::quoted_whole_number() const {
+    const std::optional<uint64_t> value = parse_unsigned(string());
+    if (!value) {
+        user_error_at(place(), "{}: found '{}', expected a whole number in quotes", shown(),
+                      string());
+    }
+    return *value;
 }
 
 bool JsonValue::boolean() const {

@@ -4,6 +4,7 @@
 // nlohmann::json does the parsing (json_tree.cpp) and stays out of this header.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +55,11 @@ class JsonValue {
 
     std::string string() const;
     double number() const;
+    // Without a fraction, from `first` to `last`, which lie within +-2^53: what a double, and so a
+    // number of JSON, holds exactly.
+    int64_t whole_number(double first, double last) const;
+    // "123": 64 bits without a sign, which JSON's numbers do not hold.
+    uint64_t quoted_whole_number() const;
     bool boolean() const;
     std::vector<double> numbers() const;
     std::vector<std::string> strings() const;

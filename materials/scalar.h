@@ -7,6 +7,7 @@
 namespace drude {
 
 inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double degree = pi / 180;  // in radians
 
 // a where the condition holds, b elsewhere; both are evaluated.
 template <class T>

@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "device/bench_clock.h"
 #include "device/device_error.h"
+#include "device/instruments/mount_arrival.h"
 
 namespace drude {
 
@@ -203,7 +204,7 @@ double AptRotator::move_to(double degrees) {
     command.id = apt::move_absolute;
     command.data = {channel, 0};
     append(&command.data, k10cr1_microsteps(degrees));
-    for (int attempt = 0;; ++attempt) {
+    const auto move = [&] {
         // It goes straight to a count of microsteps, over as many turns as that takes, with ramps
         // at both ends.
         drop_late();
@@ -211,20 +212,10 @@ double AptRotator::move_to(double degrees) {
             std::abs(static_cast<double>(k10cr1_microsteps(degrees) - ask_status().position));
         const double seconds = microsteps / info_.units_per_degree / options_.degrees_per_s +
                                2 * options_.degrees_per_s / options_.degrees_per_s2;
-        const AptStatus status = run(command, apt::move_completed, seconds);
-        const double at = k10cr1_degrees(status.position);
-        const double off = std::remainder(at - degrees, 360);
-        if (std::abs(off) <= options_.tolerance_deg) return degrees + off;
-        if (attempt > 0) {
-            device_error(Fault::mechanical,
-                         "{}: was sent to {:.3f} degrees twice and reports {:.3f}, more than {} "
-                         "degrees away; check that nothing holds it",
-                         where(), k10cr1_degrees(k10cr1_microsteps(degrees)), at,
-                         options_.tolerance_deg);
-        }
-        // It may have been the late announcement of an earlier move.
-        line_.drain(0.1, deadline_in(1));
-    }
+        return k10cr1_degrees(run(command, apt::move_completed, seconds).position);
+    };
+    return arrive(degrees, k10cr1_degrees(k10cr1_microsteps(degrees)), options_.tolerance_deg,
+                  where(), move, [&] { line_.drain(0.1, deadline_in(1)); });
 }
 
 double AptRotator::position() {

@@ -6,6 +6,7 @@
 
 #include "device/bench_clock.h"
 #include "device/device_error.h"
+#include "device/instruments/mount_arrival.h"
 
 namespace drude {
 
@@ -221,19 +222,10 @@ double Elliptec::move_to(double degrees) {
     const double fraction = degrees / 360 - std::floor(degrees / 360);
     const int64_t target = std::llround(fraction * turn) % identity_.pulses_per_turn;
     const std::string command = fmt::format("ma{:08X}", target);
-    for (int attempt = 0;; ++attempt) {
-        const double at = seen_at(move(command, seconds_to(degrees)));
-        const double off = std::remainder(at - degrees, 360);
-        if (std::abs(off) <= options_.tolerance_deg) return degrees + off;
-        if (attempt > 0) {
-            device_error(Fault::mechanical,
-                         "{}: was sent to {:.3f} degrees twice and reports {:.3f}, more than {} "
-                         "degrees away; check that nothing holds it",
-                         where(), fraction * 360, at, options_.tolerance_deg);
-        }
-        // It may have been the late answer to an earlier command.
-        bus_->line().drain(late_answers_s, deadline_in(1));
-    }
+    return arrive(
+        degrees, fraction * 360, options_.tolerance_deg, where(),
+        [&] { return seen_at(move(command, seconds_to(degrees))); },
+        [&] { bus_->line().drain(late_answers_s, deadline_in(1)); });
 }
 
 double Elliptec::position() {

@@ -8,13 +8,13 @@
 #include "device/instruments/obp_link.h"
 #include "device/instruments/spectrometer_link.h"
 #include "device/instruments/stored_calibration.h"
+#include "device/instruments/usb_spectrometer.h"
 
 namespace drude {
 
 namespace {
 
 constexpr double command_s = 1;  // for a reply from memory to come
-constexpr double margin_s = 1;   // of a frame
 
 // Message types of both versions.
 struct Messages {
@@ -32,50 +32,21 @@ std::vector<uint8_t> four_bytes(uint32_t value) {
             static_cast<uint8_t>(value >> 16), static_cast<uint8_t>(value >> 24)};
 }
 
-class ObpSpectrometer : public Spectrometer {
+class ObpSpectrometer final : public UsbSpectrometer {
   public:
     ObpSpectrometer(std::shared_ptr<UsbPort> port, const ObpModel& model, BenchClock& clock)
-        : port_(std::move(port)),
+        : UsbSpectrometer(std::move(port), clock, model.unit_us, model.unit_us),
           model_(model),
           messages_(model.second ? second_version : first_version),
-          clock_(clock),
           link_(*port_, model) {
-        with_retries(
-            [&] {
-                start();
-                read_calibration();
-                set_integration_time(std::clamp(0.1, info_.shortest_s, info_.longest_s));
-            },
-            [&] { link_.clear(); });
-    }
-
-    const SpectrometerInfo& info() const override { return info_; }
-    double integration_time() const override { return integration_s_; }
-
-    void set_integration_time(double seconds) override {
-        const uint32_t units = integration_units(seconds, info_.shortest_s, info_.longest_s,
-                                                 model_.unit_us, model_.unit_us, port_->name());
-        link_.command(messages_.set_integration_time, four_bytes(units));
-        units_ = units;
-        // The exposure that runs now keeps the time that it began with.
-        running_s_ = std::max(running_s_, integration_s_);
-        integration_s_ = 1.0 * model_.unit_us * units / 1e6;
-    }
-
-    void set_lamp(bool on) override {
-        if (!info_.has_lamp_control) return;
-        link_.command(set_lamp_state, {static_cast<uint8_t>(on ? 1 : 0)});
-        lamp_ = on;
-        lamp_is_ours_ = true;
+        open();
     }
 
     Frame acquire() override {
         forget_gathered();
         Frame frame;
         frame.requested_s = clock_.now();
-        // The exposure that runs now, at worst the whole of the next, its readout.
-        const Deadline deadline = deadline_in(std::max(running_s_, integration_s_) +
-                                              integration_s_ + info_.readout_s + margin_s);
+        const Deadline deadline = frame_deadline();
         std::vector<uint8_t> data = link_.query(model_.spectrum_message, {}, deadline);
         // A device that buffers answers with nothing as long as its buffer is empty.
         while (data.empty() && std::chrono::steady_clock::now() < deadline) {
@@ -84,35 +55,36 @@ class ObpSpectrometer : public Spectrometer {
         }
         frame.arrived_s = clock_.now();
         frame.counts = parse_obp_spectrum(data, model_, port_->name());
-        running_s_ = integration_s_;
+        frame_came();
         return frame;
     }
 
-    void recover() override { set_up_again(false); }
-
-    bool reconnect(double seconds) override {
-        if (!port_->reopen(seconds)) return false;
-        set_up_again(true);
-        return true;
-    }
-
   private:
-    void set_up_again(bool maybe_another) {
-        link_.clear();
-        with_retries(
-            [&] {
-                start();
-                if (maybe_another) check_serial(read_serial(), info_.serial, port_->name());
-                link_.command(messages_.set_integration_time, four_bytes(units_));
-                running_s_ = integration_s_;
-                if (lamp_is_ours_) set_lamp(lamp_);
-            },
-            [&] { link_.clear(); });
+    void start() override {
+        link_.drain();
+        link_.command(messages_.set_trigger_mode, {0});
+        take_readout(model_.readout_s, model_.spectrum_bytes());
     }
 
-    std::string read_serial() {
-        const std::string in_memory = stored_text(ask(get_serial));
-        return in_memory.empty() ? port_->serial() : in_memory;
+    void clear() override { link_.clear(); }
+    std::string serial_in_memory() override { return stored_text(ask(get_serial)); }
+    void send_integration_time(uint32_t units) override {
+        link_.command(messages_.set_integration_time, four_bytes(units));
+    }
+    void send_lamp(bool on) override {
+        link_.command(set_lamp_state, {static_cast<uint8_t>(on ? 1 : 0)});
+    }
+
+    void read_calibration() override {
+        take_identity(
+            "obp",
+            fmt::format("{} {}", model_.second ? "Ocean Insight" : "Ocean Optics", model_.name),
+            model_);
+        info_.wavelength_nm = polynomial_wavelengths(
+            coefficients(messages_.wavelength, "wavelength"), model_.pixels, 0, port_->name());
+        read_saturation();
+        read_nonlinearity();
+        info_.has_lamp_control = !model_.second && answers(get_lamp);
     }
 
     // A device that gathers spectra by itself has some of before the request.
@@ -126,36 +98,8 @@ class ObpSpectrometer : public Spectrometer {
         }
     }
 
-    void start() {
-        link_.drain();
-        link_.command(messages_.set_trigger_mode, {0});
-        info_.readout_s = model_.readout_s;
-        // 12 Mbit/s carry about 1 MB a second.
-        if (!port_->high_speed()) {
-            info_.readout_s += 1.2e-6 * static_cast<double>(model_.spectrum_bytes());
-        }
-    }
-
     std::vector<uint8_t> ask(uint32_t type, const std::vector<uint8_t>& data = {}) {
         return link_.query(type, data, deadline_in(command_s));
-    }
-
-    void read_calibration() {
-        info_.warnings.clear();
-        info_.serial = read_serial();
-        info_.uri = "obp:" + (port_->serial().empty() ? info_.serial : port_->serial());
-        info_.model =
-            fmt::format("{} {}", model_.second ? "Ocean Insight" : "Ocean Optics", model_.name);
-        info_.max_counts = model_.max_counts;
-        info_.shortest_s = model_.shortest_us / 1e6;
-        info_.longest_s = model_.longest_us / 1e6;
-        info_.dark_first = model_.dark_first;
-        info_.dark_count = model_.dark_count;
-        info_.wavelength_nm = polynomial_wavelengths(
-            coefficients(messages_.wavelength, "wavelength"), model_.pixels, 0, port_->name());
-        read_saturation();
-        read_nonlinearity();
-        info_.has_lamp_control = !model_.second && answers(get_lamp);
     }
 
     // The second version sends all coefficients at once, after four bytes that are none of them.
@@ -180,7 +124,6 @@ class ObpSpectrometer : public Spectrometer {
     }
 
     void read_nonlinearity() {
-        info_.nonlinearity.clear();
         std::string reason;
         std::vector<double> values;
         try {
@@ -190,12 +133,7 @@ class ObpSpectrometer : public Spectrometer {
             if (error.fault() != Fault::refused) throw;
             reason = "it gives none";
         }
-        if (reason.empty()) {
-            info_.nonlinearity = std::move(values);
-        } else {
-            info_.warnings.push_back("the non-linearity coefficients in its memory are not used: " +
-                                     reason);
-        }
+        take_nonlinearity(std::move(values), reason);
     }
 
     void read_saturation() {
@@ -219,16 +157,9 @@ class ObpSpectrometer : public Spectrometer {
         }
     }
 
-    std::shared_ptr<UsbPort> port_;
     const ObpModel& model_;
     const Messages& messages_;
-    BenchClock& clock_;
     ObpLink link_;
-    SpectrometerInfo info_;
-    uint32_t units_ = 0;
-    double integration_s_ = 0;
-    double running_s_ = 0;  // of the exposure that may be running: set before the last change
-    bool lamp_ = false, lamp_is_ours_ = false;
     bool gathers_ = true;
 };
 

@@ -8,13 +8,13 @@
 #include "device/instruments/ooi_protocol.h"
 #include "device/instruments/spectrometer_link.h"
 #include "device/instruments/stored_calibration.h"
+#include "device/instruments/usb_spectrometer.h"
 
 namespace drude {
 
 namespace {
 
 constexpr double command_s = 1;  // for a request to be taken, and a reply from memory to come
-constexpr double margin_s = 1;   // of a frame
 constexpr size_t first_part_bytes = 2048;
 
 // Requests and their replies, without state of the spectrometer.
@@ -73,45 +73,20 @@ class OoiLink {
     const OoiModel& model_;
 };
 
-class OoiSpectrometer : public Spectrometer {
+class OoiSpectrometer final : public UsbSpectrometer {
   public:
     OoiSpectrometer(std::shared_ptr<UsbPort> port, const OoiModel& model, BenchClock& clock)
-        : port_(std::move(port)), model_(model), clock_(clock), link_(*port_, model) {
-        with_retries(
-            [&] {
-                start();
-                read_calibration();
-                set_integration_time(std::clamp(0.1, info_.shortest_s, info_.longest_s));
-            },
-            [&] { link_.clear(); });
-    }
-
-    const SpectrometerInfo& info() const override { return info_; }
-    double integration_time() const override { return integration_s_; }
-
-    void set_integration_time(double seconds) override {
-        const uint32_t units = integration_units(seconds, info_.shortest_s, info_.longest_s,
-                                                 model_.unit_us, model_.step_us, port_->name());
-        link_.send(ooi_set_integration_time(units));
-        units_ = units;
-        // The exposure that runs now keeps the time that it began with.
-        running_s_ = std::max(running_s_, integration_s_);
-        integration_s_ = 1.0 * model_.unit_us * units / 1e6;
-    }
-
-    void set_lamp(bool on) override {
-        link_.send(ooi_set_lamp(on));
-        lamp_ = on;
-        lamp_is_ours_ = true;
+        : UsbSpectrometer(std::move(port), clock, model.unit_us, model.step_us),
+          model_(model),
+          link_(*port_, model) {
+        open();
     }
 
     Frame acquire() override {
         Frame frame;
         frame.requested_s = clock_.now();
         link_.send(ooi_request_spectrum());
-        // The exposure that runs now, at worst the whole of the next, its readout.
-        const Deadline deadline = deadline_in(std::max(running_s_, integration_s_) +
-                                              integration_s_ + info_.readout_s + margin_s);
+        const Deadline deadline = frame_deadline();
         OoiBytes bytes;
         bytes.reserve(model_.frame_bytes());
         if (high_speed_ && model_.first != 0)
@@ -119,21 +94,12 @@ class OoiSpectrometer : public Spectrometer {
         read_part(model_.spectrum, model_.frame_bytes() - bytes.size(), deadline, &bytes);
         frame.arrived_s = clock_.now();
         frame.counts = parse_ooi_frame(bytes, model_, port_->name());
-        running_s_ = integration_s_;
+        frame_came();
         return frame;
     }
 
-    void recover() override { set_up_again(false); }
-
-    bool reconnect(double seconds) override {
-        if (!port_->reopen(seconds)) return false;
-        set_up_again(true);
-        return true;
-    }
-
   private:
-    // From any state to one in which requests are answered.
-    void start() {
+    void start() override {
         link_.drain();
         link_.initialize(clock_);
         link_.drain();  // an exposure that the initialisation did not stop
@@ -141,48 +107,19 @@ class OoiSpectrometer : public Spectrometer {
         // oldest models are full-speed devices that know nothing else.
         high_speed_ = !model_.has_status || link_.status().high_speed;
         link_.send(ooi_set_trigger_mode(0));
-        info_.readout_s = model_.readout_s;
-        // 12 Mbit/s carry about 1 MB a second.
-        if (!port_->high_speed())
-            info_.readout_s += 1.2e-6 * static_cast<double>(model_.frame_bytes());
+        take_readout(model_.readout_s, model_.frame_bytes());
     }
 
-    // After an unplugging it may be another one: descriptors of this family seldom have serial
-    // numbers, so the port cannot tell.
-    void set_up_again(bool maybe_another) {
-        link_.clear();
-        with_retries(
-            [&] {
-                start();
-                if (maybe_another) check_serial(read_serial(), info_.serial, port_->name());
-                restore();
-            },
-            [&] { link_.clear(); });
+    void clear() override { link_.clear(); }
+    std::string serial_in_memory() override { return stored_text(link_.slot(0)); }
+    void send_integration_time(uint32_t units) override {
+        link_.send(ooi_set_integration_time(units));
     }
+    void send_lamp(bool on) override { link_.send(ooi_set_lamp(on)); }
 
-    std::string read_serial() {
-        const std::string in_memory = stored_text(link_.slot(0));
-        return in_memory.empty() ? port_->serial() : in_memory;
-    }
-
-    void restore() {
-        link_.send(ooi_set_integration_time(units_));
-        running_s_ = integration_s_;
-        if (lamp_is_ours_) link_.send(ooi_set_lamp(lamp_));
-    }
-
-    void read_calibration() {
-        info_.warnings.clear();
-        info_.serial = read_serial();
-        info_.uri = "ooi:" + (port_->serial().empty() ? info_.serial : port_->serial());
-        info_.model = fmt::format("Ocean Optics {}", model_.name);
-        info_.max_counts = model_.max_counts;
-        info_.shortest_s = model_.shortest_us / 1e6;
-        info_.longest_s = model_.longest_us / 1e6;
-        info_.dark_first = model_.dark_first;
-        info_.dark_count = model_.dark_count;
+    void read_calibration() override {
+        take_identity("ooi", fmt::format("Ocean Optics {}", model_.name), model_);
         info_.has_lamp_control = true;
-
         std::vector<double> wavelength;
         for (uint8_t slot = 1; slot <= 4; ++slot) {
             wavelength.push_back(ooi_slot_number(link_.slot(slot)));
@@ -201,24 +138,16 @@ class OoiSpectrometer : public Spectrometer {
     }
 
     void read_nonlinearity() {
-        info_.nonlinearity.clear();
         const double order = ooi_slot_number(link_.slot(14));
-        std::string reason;
-        std::vector<double> coefficients;
         if (!(order >= 0 && order <= 7)) {
-            reason = "their order is not a number from 0 to 7";
-        } else {
-            for (uint8_t i = 0; i <= static_cast<uint8_t>(order); ++i) {
-                coefficients.push_back(ooi_slot_number(link_.slot(static_cast<uint8_t>(6 + i))));
-            }
-            reason = why_nonlinearity_is_unusable(coefficients, info_.max_counts);
+            return take_nonlinearity({}, "their order is not a number from 0 to 7");
         }
-        if (reason.empty()) {
-            info_.nonlinearity = std::move(coefficients);
-        } else {
-            info_.warnings.push_back("the non-linearity coefficients in its memory are not used: " +
-                                     reason);
+        std::vector<double> coefficients;
+        for (uint8_t i = 0; i <= static_cast<uint8_t>(order); ++i) {
+            coefficients.push_back(ooi_slot_number(link_.slot(static_cast<uint8_t>(6 + i))));
         }
+        const std::string reason = why_nonlinearity_is_unusable(coefficients, info_.max_counts);
+        take_nonlinearity(std::move(coefficients), reason);
     }
 
     void read_part(uint8_t endpoint, size_t wanted, Deadline deadline, OoiBytes* bytes) {
@@ -235,16 +164,9 @@ class OoiSpectrometer : public Spectrometer {
                       part.begin() + static_cast<std::ptrdiff_t>(count));
     }
 
-    std::shared_ptr<UsbPort> port_;
     const OoiModel& model_;
-    BenchClock& clock_;
     OoiLink link_;
-    SpectrometerInfo info_;
     bool high_speed_ = true;
-    uint32_t units_ = 0;
-    double integration_s_ = 0;
-    double running_s_ = 0;  // of the exposure that may be running: set before the last change
-    bool lamp_ = false, lamp_is_ours_ = false;
 };
 
 }  // namespace

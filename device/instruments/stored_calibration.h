@@ -8,9 +8,8 @@
 
 namespace drude {
 
-// Text as it lies in a device's memory: up to the first NUL or FF (memory that
-// was never written), blanks at its ends removed, '?' for
-// what is not printable ASCII.
+// Text as it lies in a device's memory: up to the first NUL or FF (memory that was never written),
+// blanks at its ends removed, '?' for what is not printable ASCII.
 std::string stored_text(std::span<const uint8_t> bytes);
 
 // Wavelengths of pixels 0 to `pixels` - 1: sum of c[i] * (pixel + origin)^i, in nm. Throws

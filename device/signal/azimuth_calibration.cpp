@@ -14,8 +14,6 @@ namespace drude {
 
 namespace {
 
-constexpr double degree = pi / 180;
-
 double square(double x) {
     return x * x;
 }

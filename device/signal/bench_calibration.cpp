@@ -15,8 +15,6 @@ namespace drude {
 
 namespace {
 
-constexpr double degree = pi / 180;
-
 struct StraightScans {
     std::vector<std::vector<BinnedFit>> bare, retarded;  // [scan][bin]
     std::vector<double> bare_rad, retarded_rad;          // analyser

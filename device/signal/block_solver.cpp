@@ -9,8 +9,6 @@ namespace drude {
 
 namespace {
 
-constexpr double degree = pi / 180;
-
 void multiply(const LeastSquares& factor, int columns, const std::vector<double>& y, Lane* result) {
     for (int i = 0; i < columns; ++i) {
         Lane sum = {};

@@ -15,7 +15,6 @@ namespace drude {
 
 namespace {
 
-constexpr double degree = pi / 180;
 // Mean intensity over its standard deviation below which a pixel is taken for dark.
 constexpr double least_signal = 5;
 

@@ -16,7 +16,6 @@ namespace drude {
 
 namespace {
 
-constexpr double degree = pi / 180;
 // Coherence above 1 is what no sample does: from here on the bench is not what it is taken for.
 constexpr double coherence_excess = 0.02;
 

@@ -19,8 +19,7 @@ class DarkCheck {
     // - a pixel reads max_counts in a frame. At most 1 % of the pixels that did so in the attempt
     //   before, the same ones, are hot: such a dark is taken, and a reduction leaves them out;
     // - more than 1 % of the pixels read more than 5 % of max_counts above what they read in
-    // another
-    //   frame of this dark, or in the others.
+    //   another frame of this dark, or in the others.
     // Frames have as many counts as the spectrometer has pixels; there is one or more.
     void check(const std::vector<Frame>& frames);
     // Hot pixels of the frames that passed.

@@ -5,10 +5,10 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 
 #include "base/crc32.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "device/bench_clock.h"
 #include "device/sweep/journal.h"
 #include "device/sweep/journal_bytes.h"
@@ -24,14 +24,6 @@ constexpr double sync_period_s = 2;
     outside_error("{}: cannot write the journal: {}", path, std::strerror(errno));
 }
 
-void write_all(int descriptor, std::string_view bytes, const std::string& path) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
-        if (count < 0 && errno != EINTR) cannot_write(path);
-        if (count > 0) bytes.remove_prefix(static_cast<size_t>(count));
-    }
-}
-
 // Two programs that append to one journal would make it unreadable.
 void lock(int descriptor, const std::string& path) {
     if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return;
@@ -44,14 +36,6 @@ void lock(int descriptor, const std::string& path) {
             path);
     }
     cannot_write(path);
-}
-
-void sync_folder(const std::string& path) {
-    const std::string parent = std::filesystem::path(path).parent_path().string();
-    const int folder = open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY);
-    if (folder < 0) return;
-    fsync(folder);
-    close(folder);
 }
 
 uint32_t bytes_of_a_count(const JournalHeader& header) {
@@ -111,10 +95,10 @@ JournalWriter JournalWriter::create(const std::string& path, const JournalHeader
     if (descriptor < 0) cannot_write(path);
     lock(descriptor, path);
     JournalWriter writer(path, descriptor, 0, bytes_of_a_count(header));
-    write_all(descriptor, journal_magic, path);
+    if (!write_all(descriptor, journal_magic)) cannot_write(path);
     writer.record(static_cast<uint32_t>(RecordType::header), format_journal_header(header));
     writer.sync();
-    sync_folder(path);
+    sync_folder_of(path);
     return writer;
 }
 
@@ -145,7 +129,7 @@ void JournalWriter::record(uint32_t type, std::string_view payload) {
     std::string bytes;
     bytes.reserve(head.bytes().size() + payload.size() + tail.bytes().size());
     bytes.append(head.bytes()).append(payload).append(tail.bytes());
-    write_all(descriptor_, bytes, path_);
+    if (!write_all(descriptor_, bytes)) cannot_write(path_);
     if (real_clock().now() - synced_s_ >= sync_period_s) sync();
 }
 

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "device/signal/small_least_squares.h"
+
 namespace drude {
 
 namespace {
@@ -80,40 +82,31 @@ class SignalClasses {
         return sum;
     }
 
-    // Normal equations of the coefficients in `set` by elimination; nothing where they are singular
-    // or a coefficient is negative.
+    // Normal equations of the coefficients in `set`; nothing where they are singular or a
+    // coefficient is negative.
     std::optional<std::array<double, 3>> solve(unsigned set) const {
         std::array<size_t, 3> column{};
         size_t n = 0;
         for (size_t i = 0; i < 3; ++i) {
             if (set >> i & 1U) column[n++] = i;
         }
-        double m[3][4] = {};
+        std::array<double, 9> matrix{};
+        std::array<double, 3> right{};
         for (const Class& c : all_) {
             if (!(c.weight > 0)) continue;
             const auto p = powers(c);
             for (size_t i = 0; i < n; ++i) {
-                for (size_t j = 0; j < n; ++j) m[i][j] += weight(c) * p[column[i]] * p[column[j]];
-                m[i][n] += weight(c) * p[column[i]] * target(c);
+                for (size_t j = 0; j < n; ++j) {
+                    matrix[i * n + j] += weight(c) * p[column[i]] * p[column[j]];
+                }
+                right[i] += weight(c) * p[column[i]] * target(c);
             }
         }
-        for (size_t i = 0; i < n; ++i) {
-            size_t pivot = i;
-            for (size_t k = i + 1; k < n; ++k) {
-                if (std::abs(m[k][i]) > std::abs(m[pivot][i])) pivot = k;
-            }
-            if (!(std::abs(m[pivot][i]) > 0)) return {};
-            std::swap(m[i], m[pivot]);
-            for (size_t k = 0; k < n; ++k) {
-                if (k == i) continue;
-                const double factor = m[k][i] / m[i][i];
-                for (size_t j = i; j <= n; ++j) m[k][j] -= factor * m[i][j];
-            }
-        }
+        if (!solve_normal_equations(static_cast<int>(n), matrix.data(), right.data())) return {};
         std::array<double, 3> x{};
         for (size_t i = 0; i < n; ++i) {
-            x[column[i]] = m[i][n] / m[i][i];
-            if (!(x[column[i]] >= 0)) return {};
+            if (!(right[i] >= 0)) return {};
+            x[column[i]] = right[i];
         }
         return x;
     }

@@ -27,14 +27,6 @@ const std::vector<std::string>& kind_names() {
     return names;
 }
 
-int integer(const JsonValue& value) {
-    const double number = value.number();
-    if (!(std::abs(number) <= 1e9 && number == std::floor(number))) {
-        user_error_at(value.place(), "{} is {}, expected a whole number", value.shown(), number);
-    }
-    return static_cast<int>(number);
-}
-
 template <class Condition>
 void check_all(const std::string& where, const char* key, const std::vector<double>& values,
                const char* expected, Condition condition) {
@@ -262,7 +254,7 @@ Recipe parse_recipe(const std::string& json, const std::string& file) {
         if (root.has(key)) *target = root.at(key).number();
     };
     const auto read_integer = [&](const char* key, int* target) {
-        if (root.has(key)) *target = integer(root.at(key));
+        if (root.has(key)) *target = static_cast<int>(root.at(key).whole_number(-1e9, 1e9));
     };
     const auto read_boolean = [&](const char* key, bool* target) {
         if (root.has(key)) *target = root.at(key).boolean();
@@ -278,13 +270,7 @@ Recipe parse_recipe(const std::string& json, const std::string& file) {
     read_boolean("drift", &recipe.drift);
     read_boolean("shuffle", &recipe.shuffle);
     if (root.has("seed")) {
-        const JsonValue value = root.at("seed");
-        const double seed = value.number();
-        if (!(seed >= 0 && seed <= largest_integer && seed == std::floor(seed))) {
-            user_error_at(value.place(), "{} is {}, expected a whole number from 0 to {:.0f}",
-                          value.shown(), seed, largest_integer);
-        }
-        recipe.seed = static_cast<uint64_t>(seed);
+        recipe.seed = static_cast<uint64_t>(root.at("seed").whole_number(0, largest_integer));
     }
     read_number("first_nm", &recipe.first_nm);
     read_number("last_nm", &recipe.last_nm);

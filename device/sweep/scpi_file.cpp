@@ -1,7 +1,6 @@
 #include "device/sweep/scpi_file.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -118,13 +117,8 @@ ScpiCommands read_scpi_commands(const JsonValue& object) {
     if (object.has("format")) commands.format = read_format(object.at("format"));
     if (object.has("swapped")) commands.swapped = object.at("swapped").boolean();
     if (object.has("max_counts")) {
-        const JsonValue value = object.at("max_counts");
-        const double counts = value.number();
-        if (!(counts >= 1 && counts <= largest_count && counts == std::floor(counts))) {
-            user_error_at(value.place(), "{} is {}, expected a whole number from 1 to {:.0f}",
-                          value.shown(), counts, largest_count);
-        }
-        commands.max_counts = static_cast<uint32_t>(counts);
+        commands.max_counts =
+            static_cast<uint32_t>(object.at("max_counts").whole_number(1, largest_count));
     }
     return commands;
 }

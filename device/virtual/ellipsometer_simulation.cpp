@@ -12,8 +12,6 @@ namespace drude {
 
 namespace {
 
-constexpr double degree = pi / 180;
-
 void check(const SimulationSetup& setup) {
     if (setup.angles_deg.empty()) user_error("simulate: found no angle of incidence");
     if (setup.wavelengths_nm.empty()) user_error("simulate: found no wavelength");

@@ -9,7 +9,6 @@ namespace drude {
 
 namespace {
 
-constexpr double degree = pi / 180;
 using Direction = Vec3<double>;
 
 // A direction of the detector's cone: what its facets' reflection is weighted with and how their

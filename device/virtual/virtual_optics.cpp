@@ -17,8 +17,6 @@ namespace drude {
 
 namespace {
 
-constexpr double degree = pi / 180;
-
 StateHash frame_hash(const OpticalState& state, double integration_s, uint64_t exposure) {
     StateHash hash(state.lamp_on ? Draw::frame : Draw::dark_frame);
     hash.add_arms(state).add(integration_s * 1e3).add(exposure);

@@ -1,5 +1,4 @@
 // VirtualBenchSettings: their bounds, and their JSON.
-#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -122,14 +121,7 @@ VirtualBenchSettings read_virtual_bench_settings(const JsonValue& value) {
         } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
             setting = member.numbers();
         } else if constexpr (std::is_integral_v<Value>) {
-            const double number = member.number();
-            // Before the conversion, which is undefined outside the type's range.
-            if (!(number >= least && number <= most && number == std::floor(number))) {
-                user_error_at(member.place(), "{}: found {}, expected a whole number from {} to {}",
-                              member.shown(), format_double(number), format_double(least),
-                              format_double(most));
-            }
-            setting = static_cast<Value>(number);
+            setting = static_cast<Value>(member.whole_number(least, most));
         } else {
             setting = member.number();
         }

@@ -65,16 +65,6 @@ std::string temporary_name(const std::filesystem::path& folder, const std::files
     return (folder / fmt::format(".{}.{}-{}.tmp{}", stem, getpid(), attempt, extension)).string();
 }
 
-// Writes all of `bytes`; false with errno set where the system says no.
-bool write_all(int descriptor, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
-        if (count < 0 && errno != EINTR) return false;
-        if (count > 0) bytes.remove_prefix(static_cast<size_t>(count));
-    }
-    return true;
-}
-
 // Copies the whole of `from` to the device, pipe or terminal at `path`.
 void copy_to_device(int from, const std::string& path) {
     const int device = open(path.c_str(), O_WRONLY | O_CLOEXEC);
@@ -92,6 +82,23 @@ void copy_to_device(int from, const std::string& path) {
 }
 
 }  // namespace
+
+bool write_all(int descriptor, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+        if (count < 0 && errno != EINTR) return false;
+        if (count > 0) bytes.remove_prefix(static_cast<size_t>(count));
+    }
+    return true;
+}
+
+void sync_folder_of(const std::string& path) {
+    const std::string parent = std::filesystem::path(path).parent_path().string();
+    const int folder = open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY);
+    if (folder < 0) return;
+    fsync(folder);
+    close(folder);
+}
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), final_path_(path_) {
     namespace fs = std::filesystem;
@@ -145,14 +152,7 @@ void AtomicFile::commit() {
         throw Error(Cause::outside, cannot_write(path_));
     }
     committed_ = true;
-    // The rename itself must reach the disk too; a file system that cannot sync a folder
-    // (EINVAL) has nothing more to offer.
-    const std::string parent = std::filesystem::path(final_path_).parent_path().string();
-    const int folder = open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY);
-    if (folder >= 0) {
-        fsync(folder);
-        close(folder);
-    }
+    sync_folder_of(final_path_);  // the rename itself must reach the disk too
 }
 
 void write_file(const std::string& path, std::string_view bytes) {

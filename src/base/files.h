@@ -48,6 +48,14 @@ class AtomicFile {
 // AtomicFile in one call.
 void write_file(const std::string& path, std::string_view bytes);
 
+// For files that are appended to, by descriptor: writes all of `bytes`, signals between or not;
+// false with errno set where the system says no.
+bool write_all(int descriptor, std::string_view bytes);
+
+// Brings the name of a file that was created or renamed to the disk: syncs the folder it stands in.
+// A file system that cannot sync a folder (EINVAL) has nothing more to offer.
+void sync_folder_of(const std::string& path);
+
 // Creates the folder and its parents where missing. Throws Error (user) where the name is a file's,
 // Error (outside) where the system says no.
 void make_folder(const std::string& path);

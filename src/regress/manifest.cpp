@@ -1,7 +1,6 @@
 #include "regress/manifest.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -15,16 +14,6 @@ namespace drude {
 namespace {
 
 constexpr std::string_view format_name = "drude-references/1";
-
-// A whole number within bounds; doubles hold those up to 2^53 exactly.
-uint64_t whole(const JsonValue& value, double low, double high) {
-    const double number = value.number();
-    if (!(number >= low && number <= high) || number != std::floor(number)) {
-        user_error_at(value.place(), "{} is {}; expected a whole number from {:.0f} to {:.0f}",
-                      value.shown(), number, low, high);
-    }
-    return static_cast<uint64_t>(number);
-}
 
 double fraction(const JsonValue& value) {
     const double number = value.number();
@@ -62,11 +51,12 @@ ReferenceCase read_case(const JsonValue& object) {
     one.name = file_word(object.at("name"));
     one.scene = object.at("scene").string();
     one.purpose = object.at("purpose").string();
-    one.samples = static_cast<int>(whole(object.at("samples"), fewest_samples, most_samples));
+    one.samples = static_cast<int>(object.at("samples").whole_number(fewest_samples, most_samples));
     one.reference_samples =
-        static_cast<int>(whole(object.at("reference_samples"), fewest_samples, most_samples));
-    one.seed = whole(object.at("seed"), 0, largest_seed);
-    one.reference_seed = whole(object.at("reference_seed"), 0, largest_seed);
+        static_cast<int>(object.at("reference_samples").whole_number(fewest_samples, most_samples));
+    one.seed = static_cast<uint64_t>(object.at("seed").whole_number(0, largest_seed));
+    one.reference_seed =
+        static_cast<uint64_t>(object.at("reference_seed").whole_number(0, largest_seed));
     if (one.seed == one.reference_seed) {
         user_error_at(object.at("seed").place(),
                       "'{}': seed and reference_seed are both {}; the noise of the two pictures "
@@ -75,7 +65,7 @@ ReferenceCase read_case(const JsonValue& object) {
     }
     one.largest_bias = fraction(object.at("largest_bias"));
     if (object.has("wavelengths")) {
-        one.wavelengths = static_cast<int>(whole(object.at("wavelengths"), 0, 40));
+        one.wavelengths = static_cast<int>(object.at("wavelengths").whole_number(0, 40));
     }
     if (object.has("transport")) {
         const JsonValue transport = object.at("transport");

@@ -12,22 +12,7 @@ namespace {
 using nlohmann::ordered_json;
 
 size_t count_of(const JsonValue& value) {
-    const double number = value.number();
-    if (!(number >= 0 && number <= 1e15 &&
-          number == static_cast<double>(static_cast<uint64_t>(std::clamp(number, 0.0, 1e15))))) {
-        user_error_at(value.place(), "{}: found {}, expected a whole number, at least 0",
-                      value.shown(), format_double(number));
-    }
-    return static_cast<size_t>(number);
-}
-
-uint64_t seed_of(const JsonValue& value) {
-    const std::optional<uint64_t> number = parse_unsigned(value.string());
-    if (!number) {
-        user_error_at(value.place(), "{}: found '{}', expected a whole number in quotes",
-                      value.shown(), value.string());
-    }
-    return *number;
+    return static_cast<size_t>(value.whole_number(0, 1e15));
 }
 
 FittedLobe read_fitted_lobe(const JsonValue& value) {
@@ -74,7 +59,7 @@ StudyCapture read_capture(const JsonValue& value) {
                       "common_errors", "harmonic_4", "drift", "residual_over_noise",
                       "step_jitter_deg", "saturated", "warnings"});
     StudyCapture capture;
-    capture.seed = seed_of(value.at("seed"));
+    capture.seed = value.at("seed").quoted_whole_number();
     capture.integration_s = value.at("integration_s").number();
     capture.frames = count_of(value.at("frames"));
     capture.bench_seconds = value.at("bench_seconds").number();

@@ -21,15 +21,6 @@ namespace {
 constexpr const char* format_name = "drude-study/2";
 constexpr uint64_t largest_record = uint64_t{1} << 22;
 
-uint64_t whole_number(const JsonValue& value) {
-    const std::optional<uint64_t> number = parse_unsigned(value.string());
-    if (!number) {
-        user_error_at(value.place(), "{}: found '{}', expected a whole number in quotes",
-                      value.shown(), value.string());
-    }
-    return *number;
-}
-
 // A folder within the study's: a single name, so that a record cannot lead elsewhere.
 std::string folder_name(const JsonValue& value) {
     const std::string name = value.string();
@@ -63,7 +54,7 @@ StudyInfo read_info(const JsonValue& root) {
     info.render_seconds = root.at("render_seconds").number();
     info.samples_per_pixel =
         static_cast<int>(std::clamp(root.at("samples_per_pixel").number(), 0.0, 2147483647.0));
-    info.seed = whole_number(root.at("seed"));
+    info.seed = root.at("seed").quoted_whole_number();
     info.lobe = root.at("lobe").string();
     info.masking = root.at("masking").string();
     info.beta = root.at("beta").number();

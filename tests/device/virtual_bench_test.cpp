@@ -13,8 +13,6 @@
 namespace drude {
 namespace {
 
-constexpr double degree = pi / 180;
-
 VirtualBenchSettings noisy_settings() {
     VirtualBenchSettings settings;
     settings.pixels = 64;

@@ -15,7 +15,6 @@ namespace drude {
 namespace {
 
 using Complex64 = std::complex<double>;
-constexpr double degree = pi / 180;
 const char* const metals[] = {"Cu-McPeak", "Ag-McPeak", "Au-McPeak", "Al-McPeak", "Zn-Werner-DFT"};
 
 VirtualBenchSettings five_nm_pixels() {

@@ -14,7 +14,6 @@
 namespace drude {
 namespace {
 
-constexpr double degree = pi / 180;
 const char* const study_metals[] = {"Cu-McPeak", "Ag-McPeak", "Au-McPeak", "Al-McPeak",
                                     "Zn-Werner-DFT"};
 

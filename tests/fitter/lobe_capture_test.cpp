@@ -13,7 +13,6 @@
 namespace drude {
 namespace {
 
-constexpr double degree = pi / 180;
 const char* const metal_name = "Cu-McPeak";
 
 Material rough_metal(Lobe lobe, double beta) {

@@ -22,7 +22,6 @@ inline LobeScan scan_of(Lobe lobe, double beta, const std::vector<double>& wavel
     LobeScan scan;
     scan.detector_half_angle_deg = 0.01;
     scan.detector_solid_angle_sr = 1e-7;
-    constexpr double degree = pi / 180;
     uint64_t index = 0;
     for (const double nm : wavelengths_nm) {
         for (int seen = 30; seen <= 85; ++seen) {

@@ -13,8 +13,6 @@
 namespace drude {
 namespace {
 
-constexpr double degree = pi / 180;
-
 double delta_360(const Reflection<double>& r) {
     const double d = delta(r) / degree;
     return d < 0 ? d + 360 : d;
