@@ -10,9 +10,10 @@ template <Transport transport, int N>
 class PacketBatchTracer final : public BatchTracer {
   public:
     explicit PacketBatchTracer(const TracerSetup& setup)
-        : setup_(setup),
-          tables_(setup.scene),
-          path_(setup.scene, setup.geometry, setup.lights, tables_, setup.camera.handedness()) {}
+        : setup_(setup), tables_(setup.scene), path_{setup.scene,     setup.geometry,
+                                                     setup.lights,    setup.elements,
+                                                     tables_,         setup.camera.handedness(),
+                                                     setup.max_depth, {}} {}
 
     void trace(const BatchRequest& request, BatchResult* result,
                PathStatistics* statistics) const override {
@@ -37,9 +38,8 @@ class PacketBatchTracer final : public BatchTracer {
             const CameraRay ray = setup_.camera(request.x + 0.5 + static_cast<double>(dx),
                                                 request.y + 0.5 + static_cast<double>(dy));
             const int phase = Wavelengths<N>::phase(sampler.next_1d());
-            Contribution<transport, N> radiance;
-            for (Packet<N>& s : radiance.s) s = Packet<N>(0.0f);
-            path_.trace(ray, phase, setup_.max_depth, sampler, &radiance, statistics);
+            Path<transport, N> path(path_, phase, sampler, *statistics);
+            const Contribution<transport, N>& radiance = path.trace(ray);
             const Packet<N> x = tables_.x[phase], y = tables_.y[phase], z = tables_.z[phase];
             for (int i = 0; i < rows; ++i) {
                 const Packet<N> s = radiance.s[i] * Packet<N>(weight_x * weight_y);
@@ -72,12 +72,14 @@ class PacketBatchTracer final : public BatchTracer {
   private:
     TracerSetup setup_;
     SpectralTables<N> tables_;
-    PathTracer<transport, N> path_;
+    PathSetup<transport, N> path_;
 };
 
 template <Transport transport>
 std::unique_ptr<BatchTracer> make_packet_tracer(int wavelengths, const TracerSetup& setup) {
     switch (wavelengths) {
+        case 4:
+            return std::make_unique<PacketBatchTracer<transport, 4>>(setup);
         case 8:
             return std::make_unique<PacketBatchTracer<transport, 8>>(setup);
         case 16:

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "render/embree.h"
+#include "render/optical_elements.h"
 #include "render/partial_sphere.h"
 
 namespace drude {
@@ -177,7 +178,9 @@ Hit triangle_hit(const WorldMesh& mesh, unsigned primitive, float v, float w) {
 
 }  // namespace
 
-Geometry::Geometry(const Scene& scene, const std::string& isa) : impl_(std::make_unique<Impl>()) {
+Geometry::Geometry(const Scene& scene, const std::string& isa,
+                   const std::function<bool(const Shape&)>& wanted)
+    : impl_(std::make_unique<Impl>()) {
     impl_->scene = &scene;
     impl_->mesh_of_shape.assign(scene.shapes.size(), -1);
     impl_->sphere_of_shape.assign(scene.shapes.size(), -1);
@@ -193,6 +196,7 @@ Geometry::Geometry(const Scene& scene, const std::string& isa) : impl_(std::make
         const Shape& shape = scene.shapes[i];
         const int index = static_cast<int>(i);
         if (shape.material < 0) continue;
+        if (wanted ? !wanted(shape) : is_optical_element(scene, shape)) continue;
         if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
             impl_->mesh_of_shape[i] = static_cast<int>(impl_->meshes.size());
             impl_->meshes.push_back(to_world(*mesh, shape, index));

@@ -169,7 +169,8 @@ class ReferenceTracer {
                    const Vec& out, const Vec& out_frame) const {
         const double cosine = glm::dot(in, n);
         if (const auto* diffuse = std::get_if<DiffuseMaterial>(&scene_.materials[material])) {
-            const double r = cosine > 0 ? spectrum_at(diffuse->reflectance.constant, nm) * cosine / pi : 0;
+            const double r =
+                cosine > 0 ? spectrum_at(diffuse->reflectance.constant, nm) * cosine / pi : 0;
             return Matrix::diagonal(r, 0, 0, 0);
         }
         const auto e = lobes_[material].evaluate(to_local(n, out), to_local(n, in));
