@@ -199,8 +199,9 @@ class Path {
     }
 
     void pass_elements(const glm::vec3& o, const glm::vec3& d, float distance,
-                       Beam<transport, N>& beam) const {
+                       Beam<transport, N>& beam) {
         setup_.elements.along(o, d, distance, [&](const Hit& at) {
+            cancelled_ = std::max(cancelled_, 1e-2f * max_lane(beam.throughput.corner()));
             beam.throughput.apply(setup_.elements.mueller(at, -d, beam.x, h_));
         });
     }
@@ -217,8 +218,10 @@ class Path {
 
     // ---- light
 
-    void add(Contribution<transport, N> c, float weight) {
-        const float excess = project_on_cone(&c);
+    // `light` is the radiance that it came from.
+    void add(Contribution<transport, N> c, const Packet<N>& light, float weight) {
+        const float least = cancelled_ > 0 ? cancelled_ * max_lane(light) : 0;
+        const float excess = project_on_cone(&c, least);
         statistics_.projections += excess > 1e-5f * static_cast<float>(depth_ + 1);
         const float check = sum(c.s[0]) * weight;
         if (!(check < std::numeric_limits<float>::infinity())) {
@@ -237,7 +240,7 @@ class Path {
                                         ? tables_.rgb_light(environment->radiance(d_), phase_)
                                         : tables_.infinite_radiance[i][phase_];
             const float weight = lobe_pdf_ > 0 ? mis(lobe_pdf_, lights_.infinite_pdf(i, d_)) : 1;
-            add(beam_.throughput.unpolarised(light), weight);
+            add(beam_.throughput.unpolarised(light), light, weight);
         }
     }
 
@@ -247,14 +250,16 @@ class Path {
         const float distance = glm::length(hit.p - from_);
         const float weight =
             lobe_pdf_ > 0 ? mis(lobe_pdf_, lights_.area_pdf(hit, d_, distance)) : 1;
-        add(beam_.throughput.unpolarised(tables_.area_radiance[shape.area_light][phase_]), weight);
+        const Packet<N> radiance = tables_.area_radiance[shape.area_light][phase_];
+        add(beam_.throughput.unpolarised(radiance), radiance, weight);
     }
 
     // What a light sample brings over a scattering.
     void add_light(const Vertex& v, const Lights::Sample& l, const Packet<N>& reflectance,
                    const glm::vec3& m, float weight) {
         if (is_plain()) {
-            add(beam_.throughput.unpolarised(reflectance * radiance_of(l)), weight);
+            const Packet<N> light = radiance_of(l);
+            add(beam_.throughput.unpolarised(reflectance * light), light, weight);
         } else {
             Beam<transport, N> beam = beam_;
             beam.scatter(v.out, -l.d, m, reflectance, 1, h_);
@@ -268,7 +273,7 @@ class Path {
             const Packet<N> light = radiance_of(l);
             add(beam_.throughput.reflect_unpolarised(rotation_between(v.out, beam_.x, s, h_),
                                                      r.A() * light, r.B() * light),
-                weight);
+                light, weight);
         } else {
             Beam<transport, N> beam = beam_;
             beam.scatter(v.out, -l.d, v.to_world(m), r, 1, h_);
@@ -286,7 +291,8 @@ class Path {
             pass_elements(from, l.d,
                           std::isinf(l.distance) ? l.distance : glm::length(l.target - from), beam);
         }
-        add(beam.throughput.unpolarised(radiance_of(l)), weight);
+        const Packet<N> light = radiance_of(l);
+        add(beam.throughput.unpolarised(light), light, weight);
     }
 
     Lights::Sample light_sample(const Hit& hit) {
@@ -347,6 +353,9 @@ class Path {
     float radiance_scale_ = 1;  // index squared where the path is, over that at the camera
     int hero_ = -1;             // the lane that decides directions, once there was dispersion
     bool parted_ = false;       // only the hero is left
+    // Crossed elements leave of the product what rounding leaves: a contribution is judged against
+    // at least this.
+    float cancelled_ = 0;
     int depth_ = 0, passed_ = 0;
 };
 

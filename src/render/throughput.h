@@ -148,14 +148,15 @@ class Throughput {
 };
 
 // Projects a contribution on the cone of physical Stokes vectors, S0 >= |S1..3|, from which only
-// rounding can take it. Returns the largest excess |S1..3| / S0 - 1 that was removed.
+// rounding can take it. Returns the largest excess |S1..3| - S0 that was removed, over S0 or, where
+// that is more, `least`.
 template <Transport transport, int N>
-float project_on_cone(Contribution<transport, N>* c) {
+float project_on_cone(Contribution<transport, N>* c, float least = 0) {
     if constexpr (transport == Transport::stokes) {
         const Packet<N> polarised = sqrt(c->s[1] * c->s[1] + c->s[2] * c->s[2] + c->s[3] * c->s[3]);
-        const Packet<N> before = max(c->s[0], Packet<N>(1e-30f));
+        const Packet<N> excess = (polarised - c->s[0]) / max(c->s[0], Packet<N>(least + 1e-30f));
         c->s[0] = max(c->s[0], polarised);
-        return max_lane(polarised / before) - 1;
+        return max_lane(excess);
     } else {
         c->s[0] = max(c->s[0], Packet<N>(0.0f));
         return 0;
