@@ -176,6 +176,8 @@ class PathTracer {
                 return tables_.infinite_radiance[l.light][phase];
             case Lights::Kind::distant:
                 return tables_.distant_irradiance[l.light][phase];
+            case Lights::Kind::point:
+                return tables_.point_intensity[l.light][phase];
             case Lights::Kind::area:
                 break;
         }
