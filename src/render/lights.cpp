@@ -127,28 +127,9 @@ Lights::Lights(const Scene& scene, const Geometry& geometry)
         const double exitance = pi * luminance_of(light.radiance) * (light.two_sided ? 2 : 1);
         const size_t first = emitters_.size();
         first_of_shape_[i] = static_cast<int>(first);
-        if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
-            for (unsigned t = 0; t < mesh->triangles.size(); ++t) {
-                glm::vec3 c[3];
-                geometry.triangle(static_cast<int>(i), t, c);
-                const glm::dvec3 a(c[0]);
-                const double area =
-                    0.5 * glm::length(glm::cross(glm::dvec3(c[1]) - a, glm::dvec3(c[2]) - a));
-                add({Kind::area, static_cast<int>(i), t, static_cast<float>(area)}, exitance * area,
-                    first);
-            }
-        } else {
-            const Sphere& s = std::get<Sphere>(shape.geometry);
-            const double area = s.phi_max_deg / 360 * 2 * pi * s.radius *
-                                (std::min(s.z_max, s.radius) - std::max(s.z_min, -s.radius));
-            double stretch = 0;
-            for (int axis = 0; axis < 3; ++axis) {
-                glm::dvec3 n(0);
-                n[axis] = 1;
-                stretch += geometry.area_stretch(static_cast<int>(i), n) / 3;
-            }
-            add({Kind::area, static_cast<int>(i), 0, static_cast<float>(area)},
-                exitance * area * stretch, first);
+        for (unsigned p = 0; p < geometry.primitives(static_cast<int>(i)); ++p) {
+            add({Kind::area, static_cast<int>(i), p},
+                exitance * geometry.area(static_cast<int>(i), p), first);
         }
     }
     make_choice();
@@ -163,43 +144,23 @@ float Lights::area_pdf(const Hit& hit, const glm::vec3& d, float distance) const
     const int first = first_of_shape_[hit.shape];
     if (first < 0 || emitters_.empty()) return 0;
     const size_t i = static_cast<size_t>(first) + hit.primitive;
-    float area = emitters_[i].area;
-    if (std::holds_alternative<Sphere>(scene_.shapes[hit.shape].geometry)) {
-        area *= static_cast<float>(geometry_.area_stretch_at(hit.shape, hit.p));
-    }
     const float cosine = std::abs(glm::dot(hit.ng, d));
-    return cosine > 0 && area > 0 ? choice(i) * distance * distance / (cosine * area) : 0;
+    return cosine > 0 ? choice(i) * distance * distance / cosine * geometry_.density(hit) : 0;
 }
 
 void Lights::sample_area(const Emitter& e, float choice, const glm::vec3& at, const glm::vec2& u,
                          Sample* s) const {
     const Shape& shape = scene_.shapes[e.index];
-    Hit hit;
-    float area = e.area;
-    if (std::holds_alternative<TriangleMesh>(shape.geometry)) {
-        const float root = std::sqrt(u.x);
-        hit = geometry_.on_triangle(e.index, e.primitive, root * (1 - u.y), root * u.y);
-    } else {
-        // Uniform in the object's own area, which the transformation stretches by its place.
-        const Sphere& sphere = std::get<Sphere>(shape.geometry);
-        const double low = std::max(sphere.z_min, -sphere.radius);
-        const double high = std::min(sphere.z_max, sphere.radius);
-        const double z = low + static_cast<double>(u.x) * (high - low);
-        const double phi = static_cast<double>(u.y) * sphere.phi_max_deg * pi / 180;
-        const double r = std::sqrt(std::max(0.0, sphere.radius * sphere.radius - z * z));
-        const glm::dvec3 object(r * std::cos(phi), r * std::sin(phi), z);
-        hit = geometry_.on_sphere(e.index, object);
-        area *= static_cast<float>(geometry_.area_stretch(e.index, object / sphere.radius));
-    }
+    auto [hit, density] = geometry_.sample(e.index, e.primitive, u);
     const glm::vec3 to = hit.p - at;
     const float distance2 = glm::dot(to, to);
     s->light = shape.area_light;
-    if (!(distance2 > 0) || !(area > 0)) return;
+    if (!(distance2 > 0) || !(density > 0)) return;
     s->distance = std::sqrt(distance2);
     s->d = to / s->distance;
     const float cosine = -glm::dot(hit.ng, s->d);
     if (cosine == 0 || (cosine < 0 && !scene_.area_lights[shape.area_light].two_sided)) return;
-    s->pdf = choice * distance2 / (std::abs(cosine) * area);
+    s->pdf = choice * distance2 / std::abs(cosine) * density;
     // Off the light by its own rounding and by that of a ray over the distance.
     hit.error += 4 * std::numeric_limits<float>::epsilon() * s->distance;
     s->target = leave(hit, -s->d);

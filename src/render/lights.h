@@ -73,7 +73,6 @@ class Lights {
         Kind kind;
         int index;  // of the light (infinite, distant, point) or of the shape (area)
         unsigned primitive = 0;
-        float area = 0;  // of a triangle in the world, of a sphere in its own space
     };
     // `emitter` and those added since `first_of_light` are one light.
     void add(const Emitter& emitter, double power, size_t first_of_light);

@@ -50,14 +50,12 @@ void build_integrator(const std::string& name, ParameterList& list, Messages& me
 
 // ---- shapes ------------------------------------------------------------------------------------
 
-using Geometry = std::variant<Sphere, TriangleMesh>;
-
 // Nothing where the shape is one that pbrt-v4 knows and this renderer leaves out.
-std::optional<Geometry> build_shape(const std::string& name, ParameterList& list,
-                                    BuildContext& context);
+std::optional<ShapeGeometry> build_shape(const std::string& name, ParameterList& list,
+                                         BuildContext& context);
 Sphere build_sphere(ParameterList& list);
-TriangleMesh build_disk(ParameterList& list, Messages& messages);
-TriangleMesh build_cylinder(ParameterList& list, Messages& messages);
+Disk build_disk(ParameterList& list);
+Cylinder build_cylinder(ParameterList& list);
 TriangleMesh build_triangle_mesh(ParameterList& list, Messages& messages);
 TriangleMesh build_bilinear_mesh(ParameterList& list, Messages& messages);
 TriangleMesh build_ply_mesh(ParameterList& list, BuildContext& context);
@@ -66,7 +64,7 @@ TriangleMesh build_ply_mesh(ParameterList& list, BuildContext& context);
 void tidy_mesh(TriangleMesh& mesh, const std::string& owner, const Place& place,
                Messages& messages);
 // In world space.
-double surface_area(const Geometry& geometry, const glm::dmat4& world_from_object);
+double surface_area(const ShapeGeometry& geometry, const glm::dmat4& world_from_object);
 
 // ---- materials, textures -----------------------------------------------------------------------
 

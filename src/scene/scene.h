@@ -31,6 +31,21 @@ struct Sphere {
     double phi_max_deg = 360;
 };
 
+// A ring at z = height around the z axis, or a sector of it; its normal is +z.
+struct Disk {
+    double height = 0;
+    double radius = 1;
+    double inner_radius = 0;  // in [0, radius)
+    double phi_max_deg = 360;
+};
+
+// The side of a cylinder around the z axis, or a sector of it; its normal points outwards.
+struct Cylinder {
+    double radius = 1;
+    double z_min = -1, z_max = 1;  // z_min < z_max
+    double phi_max_deg = 360;
+};
+
 struct TriangleMesh {
     std::vector<glm::vec3> positions;   // object space
     std::vector<glm::vec3> normals;     // one a position, or none
@@ -38,8 +53,10 @@ struct TriangleMesh {
     std::vector<glm::uvec3> triangles;  // indices of positions
 };
 
+using ShapeGeometry = std::variant<Sphere, Disk, Cylinder, TriangleMesh>;
+
 struct Shape {
-    std::variant<Sphere, TriangleMesh> geometry;
+    ShapeGeometry geometry;
     glm::dmat4 world_from_object{1};
     bool reverse_orientation = false;
     int material = -1;    // index of Scene::materials; -1: an invisible "interface"
