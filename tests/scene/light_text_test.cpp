@@ -64,6 +64,11 @@ TEST(LightText, Polarisation) {
     EXPECT_EQ(scene.distant_lights.at(0).polarisation.dop, 0.5);
     EXPECT_EQ(scene.distant_lights[0].polarisation.aolp_deg, 30);
     EXPECT_EQ(scene.distant_lights[0].x_axis, glm::dvec3(1, 0, 0));
+    // One that shines along its own x has its angle from y.
+    EXPECT_EQ(world_of("LightSource \"distant\" \"float dop\" 1 \"point3 to\" [2 0 0]")
+                  .distant_lights.at(0)
+                  .x_axis,
+              glm::dvec3(0, 1, 0));
     EXPECT_EQ(scene.infinite_lights.at(0).polarisation.dop, 1);
     ASSERT_TRUE(scene.infinite_lights.at(1).rayleigh);
     EXPECT_TRUE(scene.infinite_lights[1].polarisation.none());
