@@ -125,6 +125,18 @@ size_t mend_normals(TriangleMesh& mesh) {
     return count;
 }
 
+// Gives every patch vertices of its own, so that each can have the uv of its corners.
+void part_patches(TriangleMesh& mesh, std::vector<unsigned>& indices) {
+    const TriangleMesh shared = std::move(mesh);
+    mesh = {};
+    for (size_t i = 0; i < indices.size(); ++i) {
+        mesh.positions.push_back(shared.positions[indices[i]]);
+        if (!shared.normals.empty()) mesh.normals.push_back(shared.normals[indices[i]]);
+        mesh.uv.emplace_back(i % 2, i / 2 % 2);
+        indices[i] = static_cast<unsigned>(i);
+    }
+}
+
 }  // namespace
 
 void tidy_mesh(TriangleMesh& mesh, const std::string& owner, const Place& place,
@@ -165,7 +177,8 @@ TriangleMesh build_triangle_mesh(ParameterList& list, Messages& messages) {
 TriangleMesh build_bilinear_mesh(ParameterList& list, Messages& messages) {
     TriangleMesh mesh = read_vertices(list);
     // pbrt numbers the corners (0,0), (1,0), (0,1), (1,1).
-    const std::vector<unsigned> indices = read_indices(list, 4, mesh.positions.size());
+    std::vector<unsigned> indices = read_indices(list, 4, mesh.positions.size());
+    if (mesh.uv.empty()) part_patches(mesh, indices);
     bool is_flat = true;
     for (size_t i = 0; i < indices.size(); i += 4) {
         const glm::uvec3 first(indices[i], indices[i + 1], indices[i + 3]);
