@@ -4,6 +4,7 @@
 #include <cfloat>
 #include <cmath>
 
+#include "render/optical_elements.h"
 #include "render/partial_cylinder.h"
 #include "render/partial_disk.h"
 #include "render/partial_sphere.h"
@@ -114,7 +115,9 @@ Hit triangle_hit(const WorldMesh& mesh, unsigned primitive, float v, float w) {
 
 }  // namespace
 
-Geometry::Geometry(const Scene& scene, const std::string& isa) : impl_(std::make_unique<Impl>()) {
+Geometry::Geometry(const Scene& scene, const std::string& isa,
+                   const std::function<bool(const Shape&)>& wanted)
+    : impl_(std::make_unique<Impl>()) {
     impl_->scene = &scene;
     impl_->index_of_shape.assign(scene.shapes.size(), 0);
     // One build thread: the tree, and with it the order of equal hits, must not depend on timing.
@@ -129,6 +132,7 @@ Geometry::Geometry(const Scene& scene, const std::string& isa) : impl_(std::make
         const Shape& shape = scene.shapes[i];
         const int index = static_cast<int>(i);
         if (shape.material < 0) continue;
+        if (wanted ? !wanted(shape) : is_optical_element(scene, shape)) continue;
         const auto add_round = [&](auto& round, const auto& own) {
             impl_->index_of_shape[i] = static_cast<unsigned>(round.members.size());
             round.members.push_back(

@@ -1,6 +1,7 @@
 // What rays meet: the scene's shapes behind Embree.
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -32,12 +33,14 @@ inline glm::vec3 leave(const Hit& hit, const glm::vec3& d) {
     return hit.p + side * hit.error * hit.ng;
 }
 
-// Shapes without material (pbrt's "interface") are as if they were not there.
 class Geometry {
   public:
     // Keeps a reference to `scene`, which must outlive it. Throws Error (outside) where Embree
     // refuses (no memory).
-    explicit Geometry(const Scene& scene, const std::string& isa = "");
+    // Takes in the shapes for which `wanted` holds; absent: those that scatter, which is all but
+    // interfaces and optical elements.
+    explicit Geometry(const Scene& scene, const std::string& isa = "",
+                      const std::function<bool(const Shape&)>& wanted = {});
     ~Geometry();
     Geometry(const Geometry&) = delete;
     Geometry& operator=(const Geometry&) = delete;

@@ -7,6 +7,7 @@
 
 #include "image/image.h"
 #include "materials/scalar.h"
+#include "render/camera_ray.h"
 
 namespace drude {
 
@@ -14,6 +15,15 @@ namespace {
 
 constexpr float infinite_distance = std::numeric_limits<float>::infinity();
 constexpr float pi_f = static_cast<float>(pi);
+
+// The share of a spot's intensity at an angle from its axis: pbrt-v4's smooth step of the cosine.
+double spot_falloff(const PointLight& light, double cosine) {
+    if (light.cos_end <= -1 && light.cos_start <= -1) return 1;  // a point light
+    if (cosine <= light.cos_end) return 0;
+    if (cosine >= light.cos_start) return 1;
+    const double t = (cosine - light.cos_end) / (light.cos_start - light.cos_end);
+    return t * t * (3 - 2 * t);
+}
 
 double luminance_of(const DenseSpectrum& spectrum) {
     return spectrum_to_xyz(spectrum)[1];
@@ -62,7 +72,11 @@ void Lights::make_choice() {
 }
 
 Lights::Lights(const Scene& scene, const Geometry& geometry)
-    : scene_(scene), geometry_(geometry), first_of_shape_(scene.shapes.size(), -1) {
+    : scene_(scene),
+      geometry_(geometry),
+      first_of_shape_(scene.shapes.size(), -1),
+      any_polarised_(has_polarised_lights(scene)) {
+    const double handedness = picture_handedness(scene.camera);
     const double extent = std::max(1e-6, static_cast<double>(geometry.radius()));
     const double cross_section = pi * extent * extent;
     for (size_t i = 0; i < scene.infinite_lights.size(); ++i) {
@@ -82,6 +96,7 @@ Lights::Lights(const Scene& scene, const Geometry& geometry)
                                 light.image, repaired));
             }
         }
+        infinite.polarisation = SkyPolarisation(light, handedness);
         infinite_.push_back(std::move(infinite));
         add({infinite_.back().environment ? Kind::environment : Kind::constant,
              static_cast<int>(i)},
@@ -90,6 +105,20 @@ Lights::Lights(const Scene& scene, const Geometry& geometry)
     for (size_t i = 0; i < scene.distant_lights.size(); ++i) {
         add({Kind::distant, static_cast<int>(i)},
             cross_section * luminance_of(scene.distant_lights[i].irradiance), emitters_.size());
+        distant_polarisation_.emplace_back(scene.distant_lights[i].polarisation, handedness);
+    }
+    for (size_t i = 0; i < scene.point_lights.size(); ++i) {
+        // From afar it sends the scene no more than what falls on its cross-section.
+        const PointLight& light = scene.point_lights[i];
+        const glm::dvec3 to = glm::dvec3(geometry.centre()) - light.position;
+        const double solid_angle =
+            std::min(4 * pi, cross_section / std::max(1e-30, glm::dot(to, to)));
+        add({Kind::point, static_cast<int>(i)}, solid_angle * luminance_of(light.intensity),
+            emitters_.size());
+        point_polarisation_.emplace_back(light.polarisation, handedness);
+    }
+    for (const AreaLight& light : scene.area_lights) {
+        area_polarisation_.emplace_back(light.polarisation, handedness);
     }
     for (size_t i = 0; i < scene.shapes.size(); ++i) {
         const Shape& shape = scene.shapes[i];
@@ -137,6 +166,45 @@ void Lights::sample_area(const Emitter& e, float choice, const glm::vec3& at, co
     s->target = leave(hit, -s->d);
 }
 
+void Lights::sample_point(const PointLight& light, float choice, const glm::vec3& at,
+                          Sample* s) const {
+    const glm::dvec3 to = light.position - glm::dvec3(at);
+    const double distance2 = glm::dot(to, to), distance = std::sqrt(distance2);
+    if (!(distance2 > 0)) return;
+    const double falloff = spot_falloff(light, -glm::dot(light.axis, to) / distance);
+    s->d = glm::vec3(to / distance);
+    s->distance = static_cast<float>(distance);
+    // Lamps are put on surfaces; pbrt-v4 stops a ten-thousandth before them too.
+    s->target = glm::vec3(light.position - 1e-4 * to);
+    s->is_delta = true;
+    if (falloff > 0) s->pdf = static_cast<float>(static_cast<double>(choice) * distance2 / falloff);
+}
+
+ArrivingPolarisation Lights::area_polarisation(int shape, const glm::vec3& d) const {
+    const UniformPolarisation& light = area_polarisation_[scene_.shapes[shape].area_light];
+    if (light.none()) return {};
+    // Lengths far beyond 1 would overflow when squared.
+    return light.arriving(
+        d, glm::vec3(glm::normalize(glm::dvec3(scene_.shapes[shape].world_from_object[0]))));
+}
+
+ArrivingPolarisation Lights::polarisation_of(const Sample& s, const Emitter& emitter) const {
+    switch (s.kind) {
+        case Kind::environment:
+        case Kind::constant:
+            return infinite_polarisation(emitter.index, s.d);
+        case Kind::distant:
+            return distant_polarisation_[emitter.index].arriving(
+                s.d, glm::vec3(scene_.distant_lights[emitter.index].x_axis));
+        case Kind::point:
+            return point_polarisation_[emitter.index].arriving(
+                s.d, glm::vec3(scene_.point_lights[emitter.index].x_axis));
+        case Kind::area:
+            break;
+    }
+    return area_polarisation(emitter.index, s.d);
+}
+
 Lights::Sample Lights::sample(const glm::vec3& at, float u_choice, const glm::vec2& u) const {
     Sample s;
     if (emitters_.empty()) return s;
@@ -167,10 +235,14 @@ Lights::Sample Lights::sample(const glm::vec3& at, float u_choice, const glm::ve
             s.pdf = p;
             s.is_delta = true;
             break;
+        case Kind::point:
+            sample_point(scene_.point_lights[e.index], p, at, &s);
+            break;
         case Kind::area:
             sample_area(e, p, at, u, &s);
             break;
     }
+    if (any_polarised_) s.polarisation = polarisation_of(s, e);
     return s;
 }
 

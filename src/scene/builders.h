@@ -39,8 +39,13 @@ struct BuildContext {
 
 // ---- settings ----------------------------------------------------------------------------------
 
-Film build_film(const std::string& name, ParameterList& list, Messages& messages);
-// `camera_from_world` is the current transformation at the Camera directive.
+// The film as a whole, and the pixels of it that are rendered: x0 <= x < x1, y0 <= y < y1.
+struct FilmRecipe {
+    Film film;
+    int bounds[4];  // x0 x1 y0 y1
+};
+FilmRecipe build_film(const std::string& name, ParameterList& list, Messages& messages);
+// `camera_from_world` is the current transformation at the Camera directive, `film` the whole one.
 Camera build_camera(const std::string& name, ParameterList& list,
                     const glm::dmat4& camera_from_world, const Film& film, Messages& messages);
 Filter build_filter(const std::string& name, ParameterList& list, Messages& messages);
@@ -91,6 +96,10 @@ TextureMapping build_mapping(ParameterList& list, const glm::dmat4& world_from_t
 // Appends to the scene's lights.
 void build_light(const std::string& name, ParameterList& list, const glm::dmat4& world_from_light,
                  BuildContext& context, Scene& scene);
+
+// How polarised a light is, uniformly; and an infinite light, in a pattern or uniformly.
+LightPolarisation read_light_polarisation(ParameterList& list);
+void read_sky_polarisation(ParameterList& list, InfiniteLight* light);
 
 // What an AreaLightSource says before it meets its shape.
 struct AreaLightRecipe {
