@@ -63,6 +63,7 @@ Disk build_disk(ParameterList& list);
 Cylinder build_cylinder(ParameterList& list);
 TriangleMesh build_triangle_mesh(ParameterList& list, Messages& messages);
 TriangleMesh build_bilinear_mesh(ParameterList& list, Messages& messages);
+TriangleMesh build_loop_surface(ParameterList& list, Messages& messages);
 TriangleMesh build_ply_mesh(ParameterList& list, BuildContext& context);
 // Drops triangles without area and gives normals of length 0 a direction; Error (user) where no
 // triangle is left.

@@ -5,6 +5,7 @@
 
 #include "base/numbers.h"
 #include "scene/builders.h"
+#include "scene/loop_subdivision.h"
 
 namespace drude {
 
@@ -40,15 +41,19 @@ void check_same_count(const ParameterList& list, const std::string& name, size_t
     }
 }
 
-// P, N, uv; tangents and face numbers serve materials that are not modelled.
-TriangleMesh read_vertices(ParameterList& list) {
-    TriangleMesh mesh;
+std::vector<glm::vec3> read_positions(ParameterList& list) {
     const Parameter* positions = list.values("P", ParameterType::point3);
     if (positions == nullptr) {
         user_error_at(list.place(), "{} without \"point3 P\"; expected the positions",
                       list.owner());
     }
-    mesh.positions = triples(*positions);
+    return triples(*positions);
+}
+
+// P, N, uv; tangents and face numbers serve materials that are not modelled.
+TriangleMesh read_vertices(ParameterList& list) {
+    TriangleMesh mesh;
+    mesh.positions = read_positions(list);
     const size_t count = mesh.positions.size();
     if (const Parameter* normals = list.values("N", ParameterType::normal)) {
         mesh.normals = triples(*normals);
@@ -169,6 +174,26 @@ TriangleMesh build_triangle_mesh(ParameterList& list, Messages& messages) {
     const std::vector<unsigned> indices = read_indices(list, 3, mesh.positions.size());
     for (size_t i = 0; i < indices.size(); i += 3) {
         mesh.triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+    }
+    tidy_mesh(mesh, list.owner(), list.place(), messages);
+    return mesh;
+}
+
+TriangleMesh build_loop_surface(ParameterList& list, Messages& messages) {
+    const int levels = list.integer_in("levels", 3, 0, 12);
+    list.text("scheme", "loop");
+    const std::vector<glm::vec3> given = read_positions(list);
+    const std::vector<unsigned> indices = read_indices(list, 3, given.size());
+    const std::vector<glm::dvec3> positions(given.begin(), given.end());
+    std::vector<glm::uvec3> triangles;
+    for (size_t i = 0; i < indices.size(); i += 3) {
+        triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+    }
+    TriangleMesh mesh;
+    try {
+        mesh = subdivide_loop(positions, triangles, levels);
+    } catch (const Error& error) {
+        throw Error(error.cause(), list.place_of("indices"), list.owner() + ": " + error.message());
     }
     tidy_mesh(mesh, list.owner(), list.place(), messages);
     return mesh;
