@@ -41,6 +41,7 @@ class Path {
           scene_(setup.scene),
           lights_(setup.lights),
           tables_(setup.tables),
+          polarised_(setup.lights.any_polarised()),
           h_(setup.handedness),
           phase_(phase),
           sampler_(sampler),
@@ -233,6 +234,13 @@ class Path {
         }
     }
 
+    // What light of this radiance, met along d, brings to the camera.
+    Contribution<transport, N> seen(const Beam<transport, N>& beam, const glm::vec3& d,
+                                    const Packet<N>& light, const ArrivingPolarisation& p) const {
+        if (!(p.dop > 0)) return beam.throughput.unpolarised(light);
+        return beam.throughput.polarised(light, rotation_between(-d, beam.x, p.axis, h_), p.dop);
+    }
+
     void add_infinite_lights() {
         for (size_t i = 0; i < lights_.infinite().size(); ++i) {
             const auto& environment = lights_.infinite()[i].environment;
@@ -240,7 +248,9 @@ class Path {
                                         ? tables_.rgb_light(environment->radiance(d_), phase_)
                                         : tables_.infinite_radiance[i][phase_];
             const float weight = lobe_pdf_ > 0 ? mis(lobe_pdf_, lights_.infinite_pdf(i, d_)) : 1;
-            add(beam_.throughput.unpolarised(light), light, weight);
+            add(seen(beam_, d_, light,
+                     polarised_ ? lights_.infinite_polarisation(i, d_) : ArrivingPolarisation{}),
+                light, weight);
         }
     }
 
@@ -251,7 +261,9 @@ class Path {
         const float weight =
             lobe_pdf_ > 0 ? mis(lobe_pdf_, lights_.area_pdf(hit, d_, distance)) : 1;
         const Packet<N> radiance = tables_.area_radiance[shape.area_light][phase_];
-        add(beam_.throughput.unpolarised(radiance), radiance, weight);
+        add(seen(beam_, d_, radiance,
+                 polarised_ ? lights_.area_polarisation(hit, d_) : ArrivingPolarisation{}),
+            radiance, weight);
     }
 
     // What a light sample brings over a scattering.
@@ -281,7 +293,7 @@ class Path {
         }
     }
     // Light comes unpolarised and nothing stands in its way.
-    bool is_plain() const { return setup_.elements.empty(); }
+    bool is_plain() const { return setup_.elements.empty() && !polarised_; }
 
     // The same over the whole way: `beam` is the path with the scattering, on the ray along l.d.
     void add_light(const Vertex& v, const Lights::Sample& l, Beam<transport, N>& beam,
@@ -292,7 +304,7 @@ class Path {
                           std::isinf(l.distance) ? l.distance : glm::length(l.target - from), beam);
         }
         const Packet<N> light = radiance_of(l);
-        add(beam.throughput.unpolarised(light), light, weight);
+        add(seen(beam, l.d, light, l.polarisation), light, weight);
     }
 
     Lights::Sample light_sample(const Hit& hit) {
@@ -308,6 +320,8 @@ class Path {
                 return tables_.infinite_radiance[l.light][phase_];
             case Lights::Kind::distant:
                 return tables_.distant_irradiance[l.light][phase_];
+            case Lights::Kind::point:
+                return tables_.point_intensity[l.light][phase_];
             case Lights::Kind::area:
                 break;
         }
@@ -339,6 +353,7 @@ class Path {
     const Scene& scene_;
     const Lights& lights_;
     const SpectralTables<N>& tables_;
+    const bool polarised_;  // some light is
     const float h_;
     const int phase_;
     Sampler& sampler_;

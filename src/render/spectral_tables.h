@@ -153,6 +153,9 @@ struct SpectralTables {
         for (const DistantLight& light : scene.distant_lights) {
             distant_irradiance.emplace_back(light.irradiance);
         }
+        for (const PointLight& light : scene.point_lights) {
+            point_intensity.emplace_back(light.intensity);
+        }
         for (const AreaLight& light : scene.area_lights) area_radiance.emplace_back(light.radiance);
         for (int c = 0; c < 3; ++c) {
             RGB primary{0, 0, 0};
@@ -171,7 +174,8 @@ struct SpectralTables {
     }
 
     std::vector<SurfaceTables<N>> surfaces;  // by material
-    std::vector<PackedSpectrum<N>> infinite_radiance, distant_irradiance, area_radiance;
+    std::vector<PackedSpectrum<N>> infinite_radiance, distant_irradiance, point_intensity;
+    std::vector<PackedSpectrum<N>> area_radiance;
     PackedSpectrum<N> rgb_basis[3];
     PackedSpectrum<N> x, y, z;
 
