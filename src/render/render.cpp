@@ -152,6 +152,7 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
 
     const Geometry geometry(scene, options.isa);
     const Lights lights(scene, geometry);
+    if (options.lights_are_built) options.lights_are_built();
     summary.warnings.insert(summary.warnings.end(), lights.warnings().begin(),
                             lights.warnings().end());
     if (lights.empty()) summary.warnings.push_back("the scene has no light; the picture is black");
