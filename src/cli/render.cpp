@@ -290,7 +290,7 @@ Command render_command() {
                    "what a path carries (default auto)");
         set.flag("--stokes", options->stokes, "write S0 to S3");
         set.flag("--spectral", options->spectral, "write radiance in 10 nm layers");
-        set.option("--wavelengths", options->wavelengths, "wavelengths a path: 8, 16 or 40");
+        set.option("--wavelengths", options->wavelengths, "wavelengths a path: 4, 8, 16 or 40");
         set.option("--environment", options->environment,
                    "a picture in place of the scene's infinite lights, or 'courtyard'");
         set.option("--resolution", options->resolution, "WIDTHxHEIGHT in place of the scene's");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/numbers.h"
 #include "render/batch_tracer.h"
 #include "render/film_checkpoint.h"
 #include "render/film_layers.h"
@@ -43,8 +44,8 @@ void check_options(const RenderOptions& options) {
                    most_samples);
     }
     const int n = options.wavelengths;
-    if (n != 0 && n != 8 && n != 16 && n != spectral_bins) {
-        user_error("{} wavelengths a path; expected 8, 16 or {}", n, spectral_bins);
+    if (n != 0 && n != 4 && n != 8 && n != 16 && n != spectral_bins) {
+        user_error("{} wavelengths a path; expected 4, 8, 16 or {}", n, spectral_bins);
     }
     if (options.spectral && n != 0 && n != spectral_bins) {
         user_error("spectral layers need all {} wavelengths a path, not {}", spectral_bins, n);
@@ -87,6 +88,16 @@ void choose_transport(const Scene& scene, const RenderOptions& options, RenderSu
     }
 }
 
+std::string analyser_text(const std::optional<Analyser>& analyser) {
+    if (!analyser) return "none";
+    std::string text = format_double(analyser->axis_deg);
+    if (const auto& retarder = analyser->retarder) {
+        text += fmt::format(",retarder={}:{}", format_double(retarder->fast_axis_deg),
+                            format_double(retarder->retardance_deg));
+    }
+    return text;
+}
+
 // Part i of n of the part's batches, as even as whole batches allow.
 void cut(int i, int n, FilmPart* part) {
     const uint64_t first = part->first, count = part->last - part->first;
@@ -115,6 +126,7 @@ FilmPart part_for(const Scene& scene, const RenderOptions& options, const Render
     job.transport = summary.transport;
     job.wavelengths = summary.wavelengths;
     job.spectral = options.spectral;
+    job.analyser = analyser_text(scene.camera.analyser);
     job.instruction_set = fmt::format("{}/{}", DRUDE_ISA, isa);
     job.version = DRUDE_VERSION;
     part.batches = open ? 0 : batches;
@@ -151,6 +163,7 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
         options.wavelengths ? options.wavelengths : (options.spectral ? spectral_bins : 8);
 
     const Geometry geometry(scene, options.isa);
+    const OpticalElements elements(scene, options.isa);
     const Lights lights(scene, geometry);
     if (options.lights_are_built) options.lights_are_built();
     summary.warnings.insert(summary.warnings.end(), lights.warnings().begin(),
@@ -159,7 +172,7 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     const CameraRays camera(scene.camera, scene.film.width, scene.film.height);
     const PixelFilter filter(scene.filter);
     const auto tracer = make_batch_tracer(summary.transport, summary.wavelengths,
-                                          {scene, geometry, lights, camera, filter,
+                                          {scene, geometry, lights, elements, camera, filter,
                                            options.seed.value_or(scene.seed), scene.max_depth});
 
     const FilmPart part = part_for(scene, options, summary, geometry.isa());
