@@ -204,6 +204,9 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
 
     const std::unique_ptr<const Ranks> ranks = mpi_ranks();
     RenderOptions render_options = options_for(options, scene.film, given, common, ranks.get());
+    render_options.lights_are_built = [&scene] {
+        for (InfiniteLight& light : scene.infinite_lights) light.picture.reset();
+    };
     RenderedFilm film = render_film(scene, render_options);
     // Where one process was interrupted no picture comes about: all save what they have.
     if (ranks && ranks->any(film.summary.interrupted)) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/numbers.h"
 #include "render/batch_tracer.h"
 #include "render/film_checkpoint.h"
 #include "render/film_layers.h"
@@ -89,6 +90,16 @@ void choose_transport(const Scene& scene, const RenderOptions& options, RenderSu
     }
 }
 
+std::string analyser_text(const std::optional<Analyser>& analyser) {
+    if (!analyser) return "none";
+    std::string text = format_double(analyser->axis_deg);
+    if (const auto& retarder = analyser->retarder) {
+        text += fmt::format(",retarder={}:{}", format_double(retarder->fast_axis_deg),
+                            format_double(retarder->retardance_deg));
+    }
+    return text;
+}
+
 // Part i of n of the part's batches, as even as whole batches allow.
 void cut(int i, int n, FilmPart* part) {
     const uint64_t first = part->first, count = part->last - part->first;
@@ -117,6 +128,7 @@ FilmPart part_for(const Scene& scene, const RenderOptions& options, const Render
     job.transport = summary.transport;
     job.wavelengths = summary.wavelengths;
     job.spectral = options.spectral;
+    job.analyser = analyser_text(scene.camera.analyser);
     job.instruction_set = fmt::format("{}/{}", DRUDE_ISA, isa);
     job.version = DRUDE_VERSION;
     part.batches = open ? 0 : batches;
@@ -156,6 +168,7 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     const OpticalElements elements(scene, options.isa);
     const NumberTextures numbers(scene);
     const Lights lights(scene, geometry);
+    if (options.lights_are_built) options.lights_are_built();
     summary.warnings.insert(summary.warnings.end(), lights.warnings().begin(),
                             lights.warnings().end());
     if (lights.empty()) summary.warnings.push_back("the scene has no light; the picture is black");

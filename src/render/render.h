@@ -1,6 +1,7 @@
 // Rendering a scene to an image.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -38,6 +39,10 @@ struct RenderOptions {
     bool resume = false;                       // go on from `checkpoint`, where it is there
     bool allow_mixed = false;                  // also one of another instruction set
     std::string command_line;                  // for the checkpoint
+
+    // Called once the lights hold what they need of the scene, before the film takes its memory:
+    // pictures that the scene carries (InfiniteLight::picture) may be let go.
+    std::function<void()> lights_are_built;
 };
 
 struct RenderSummary {
