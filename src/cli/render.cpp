@@ -30,18 +30,19 @@ struct Options {
 };
 
 void describe(const Scene& scene) {
-    size_t triangles = 0, spheres = 0;
+    size_t triangles = 0, round = 0;
     for (const Shape& shape : scene.shapes) {
         if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
             triangles += mesh->triangles.size();
         } else {
-            ++spheres;
+            ++round;
         }
     }
     fmt::print("{}: {} x {} pixels, {} samples, at most {} reflections a path\n", scene.file,
                scene.film.width, scene.film.height, scene.samples_per_pixel, scene.max_depth);
-    fmt::print("  {} spheres, {} triangles, {} materials\n", spheres, triangles,
-               scene.materials.size());
+    fmt::print("  {} spheres, disks and cylinders, {} triangles, {} materials, {} textures\n",
+               round, triangles, scene.materials.size(),
+               scene.number_textures.size() + scene.spectrum_textures.size());
     fmt::print("  {} infinite, {} distant, {} area lights\n", scene.infinite_lights.size(),
                scene.distant_lights.size(), scene.area_lights.size());
     fmt::print("  hash {}\n", scene.sha256);

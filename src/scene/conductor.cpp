@@ -142,22 +142,38 @@ double alpha_of(double roughness, bool remap) {
     return remap ? std::sqrt(roughness) : roughness;
 }
 
+NumberValue roughness_value(ParameterList& list, const std::string& name,
+                            const NumberValue& otherwise, BuildContext& context) {
+    if (!list.has(name)) return otherwise;
+    NumberValue value = number_value(list, name, 0, context);
+    if (value.texture >= 0) {
+        value.constant = std::clamp(value.constant, 0.0, 10.0);
+    } else if (!(value.constant >= 0 && value.constant <= 10)) {
+        user_error_at(list.place_of(name), "{}: roughness {}; expected 0 to 10", list.owner(),
+                      format_double(value.constant));
+    }
+    return value;
+}
+
 // pbrt's roughness: two numbers in pbrt, one here.
 void read_roughness(ConductorMaterial& conductor, ParameterList& list, const std::string& prefix,
                     BuildContext& context) {
     const bool remap = list.boolean("remaproughness", true);
-    const double both = number_or_texture(list, prefix + "roughness", 0, context);
-    const double u = number_or_texture(list, prefix + "uroughness", both, context);
-    const double v = number_or_texture(list, prefix + "vroughness", both, context);
-    for (const double roughness : {both, u, v}) {
-        if (!(roughness >= 0 && roughness <= 10)) {
-            user_error_at(list.place_of(prefix + "roughness"), "{}: roughness {}; expected 0 to 10",
-                          list.owner(), format_double(roughness));
-        }
-    }
-    const double alpha_u = alpha_of(u, remap), alpha_v = alpha_of(v, remap);
+    const NumberValue both = roughness_value(list, prefix + "roughness", {0}, context);
+    const NumberValue u = roughness_value(list, prefix + "uroughness", both, context);
+    const NumberValue v = roughness_value(list, prefix + "vroughness", both, context);
+    const double alpha_u = alpha_of(u.constant, remap), alpha_v = alpha_of(v.constant, remap);
     conductor.alpha = alpha_u == alpha_v ? alpha_u : std::sqrt(alpha_u * alpha_v);
-    if (alpha_u != alpha_v) {
+    if (u.texture >= 0 || v.texture >= 0) {
+        conductor.textured_roughness = Roughness{u.texture >= 0 ? u : v, remap};
+        if (u.texture != v.texture) {
+            context.messages.stand_in(
+                list.place_of(prefix + "uroughness"),
+                fmt::format("{}: a roughness that depends on direction is not modelled; that of "
+                            "{} stands in for both",
+                            list.owner(), u.texture >= 0 ? "u" : "v"));
+        }
+    } else if (alpha_u != alpha_v) {
         context.messages.stand_in(
             list.place_of(prefix + "uroughness"),
             fmt::format("{}: a roughness that depends on direction is not modelled; its geometric "
@@ -225,7 +241,7 @@ ConductorMaterial build_conductor(ParameterList& list, const std::string& prefix
     if (prefix.empty() && list.has("material")) {
         conductor.surface = named_material(list, context);
     } else if (list.has("reflectance")) {
-        conductor.reflectance = SpectrumValue{reflectance(list, "reflectance", 1, context)};
+        conductor.reflectance = reflectance_value(list, "reflectance", 1, context);
         conductor.surface.name = "reflectance";
         conductor.surface.substrate = published_set("Cu");
     } else {

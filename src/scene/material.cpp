@@ -17,7 +17,7 @@ SurfaceMaterial diffuse_stand_in(const std::string& name, ParameterList& list,
                                   "in",
                                   name, has_base ? "its reflectance" : "reflectance 0.5"));
     DiffuseMaterial diffuse{{constant_spectrum(0.5)}};
-    if (has_base) diffuse.reflectance.constant = reflectance(list, "reflectance", 0.5, context);
+    if (has_base) diffuse.reflectance = reflectance_value(list, "reflectance", 0.5, context);
     list.ignore(known_parameters("Material", name));
     return diffuse;
 }
@@ -32,7 +32,7 @@ std::optional<SurfaceMaterial> build_material(const std::string& name, Parameter
         return {};
     }
     if (name == "diffuse") {
-        DiffuseMaterial diffuse{{reflectance(list, "reflectance", 0.5, context)}};
+        DiffuseMaterial diffuse{reflectance_value(list, "reflectance", 0.5, context)};
         list.finish(known, context.messages);
         return diffuse;
     }
