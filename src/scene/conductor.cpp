@@ -12,6 +12,7 @@
 
 #include "base/numbers.h"
 #include "scene/builders.h"
+#include "scene/material_parts.h"
 #include "scene/spectra.h"
 
 namespace drude {
@@ -138,53 +139,6 @@ Material named_material(ParameterList& list, BuildContext& context) {
     return material;
 }
 
-double alpha_of(double roughness, bool remap) {
-    return remap ? std::sqrt(roughness) : roughness;
-}
-
-NumberValue roughness_value(ParameterList& list, const std::string& name,
-                            const NumberValue& otherwise, BuildContext& context) {
-    if (!list.has(name)) return otherwise;
-    NumberValue value = number_value(list, name, 0, context);
-    if (value.texture >= 0) {
-        value.constant = std::clamp(value.constant, 0.0, 10.0);
-    } else if (!(value.constant >= 0 && value.constant <= 10)) {
-        user_error_at(list.place_of(name), "{}: roughness {}; expected 0 to 10", list.owner(),
-                      format_double(value.constant));
-    }
-    return value;
-}
-
-// pbrt's roughness: two numbers in pbrt, one here.
-void read_roughness(ConductorMaterial& conductor, ParameterList& list, const std::string& prefix,
-                    BuildContext& context) {
-    const bool remap = list.boolean("remaproughness", true);
-    const NumberValue both = roughness_value(list, prefix + "roughness", {0}, context);
-    const NumberValue u = roughness_value(list, prefix + "uroughness", both, context);
-    const NumberValue v = roughness_value(list, prefix + "vroughness", both, context);
-    const double alpha_u = alpha_of(u.constant, remap), alpha_v = alpha_of(v.constant, remap);
-    conductor.alpha = alpha_u == alpha_v ? alpha_u : std::sqrt(alpha_u * alpha_v);
-    if (u.texture >= 0 || v.texture >= 0) {
-        conductor.textured_roughness = Roughness{u.texture >= 0 ? u : v, remap};
-        if (u.texture != v.texture) {
-            context.messages.stand_in(
-                list.place_of(prefix + "uroughness"),
-                fmt::format("{}: a roughness that depends on direction is not modelled; that of "
-                            "{} stands in for both",
-                            list.owner(), u.texture >= 0 ? "u" : "v"));
-        }
-    } else if (alpha_u != alpha_v) {
-        context.messages.stand_in(
-            list.place_of(prefix + "uroughness"),
-            fmt::format("{}: a roughness that depends on direction is not modelled; its geometric "
-                        "mean, alpha {}, stands in",
-                        list.owner(), format_double(conductor.alpha)));
-    }
-    conductor.surface.lobe = Lobe::trowbridge_reitz;
-    conductor.surface.masking = Masking::smith;
-    conductor.surface.beta = 0;
-}
-
 bool allows_smith(Lobe lobe) {
     return lobe == Lobe::beckmann || lobe == Lobe::trowbridge_reitz;
 }
@@ -257,7 +211,12 @@ ConductorMaterial build_conductor(ParameterList& list, const std::string& prefix
         read_lobe(conductor.surface, list);
         list.boolean("remaproughness", true);
     } else {
-        read_roughness(conductor, list, prefix, context);
+        const RoughnessFound found = read_roughness(list, prefix, context);
+        conductor.alpha = found.alpha;
+        conductor.textured_roughness = found.textured;
+        conductor.surface.lobe = Lobe::trowbridge_reitz;
+        conductor.surface.masking = Masking::smith;
+        conductor.surface.beta = 0;
     }
     at_place(list.place(), [&] { conductor.surface.check(); });
     return conductor;
