@@ -46,12 +46,32 @@ def quad(a, b, c, d):
 
 def teapot(steps, scale, height):
     """Flat facets: what a renderer does where shading and geometric normals differ is no matter of
-    polarisation."""
+    polarisation. The gap round the lid and the spout's mouth are closed: one sees the back of the
+    metal through them, which reflects in drude and is black in Mitsuba."""
+    import math
+
     from make_teapot import mesh
 
     vertices, triangles = mesh(steps)
-    points = [(scale * v[0], scale * v[1], scale * v[2] + height) for v in vertices]
-    return points, triangles
+    points = [v[:3] for v in vertices]
+    # A ring from lid (1.3) to rim (1.4) just below their edges, facing up.
+    around, z = 48, 2.395
+    for k in range(around):
+        for r in (1.25, 1.45):
+            phi = 2 * math.pi * k / around
+            points.append((r * math.cos(phi), r * math.sin(phi), z))
+    for k in range(around):
+        a, b = len(vertices) + 2 * k, len(vertices) + 2 * ((k + 1) % around)
+        triangles += [(a, a + 1, b + 1), (a, b + 1, b)]
+    # The mouth (x from 2.8 to 3.2), within the spout's wall.
+    first = len(points)
+    points += [(2.74, -0.1, 2.395), (3.26, -0.1, 2.395), (3.26, 0.1, 2.395), (2.74, 0.1, 2.395)]
+    points += [(2.82, -0.15, 2.395), (3.18, -0.15, 2.395), (3.18, 0.15, 2.395), (2.82, 0.15, 2.395)]
+    triangles += [
+        (first, first + 1, first + 2), (first, first + 2, first + 3),
+        (first + 4, first + 5, first + 6), (first + 4, first + 6, first + 7),
+    ]
+    return [(scale * x, scale * y, scale * z + height) for x, y, z in points], triangles
 
 
 def half_sphere(rings, around):
