@@ -251,6 +251,19 @@ class Microfacets {
         return 1 / (1 + (smith_lambda(o) + smith_lambda(i)));
     }
 
+    // The fraction of facets of normal m that o sees from above and i, i.z < 0, from below: Smith's
+    // 1/(1 + Lambda(o) + Lambda(i)) as in pbrt-v4, and the product of both sides' G1 for v-grooves,
+    // as Walter et al. 2007 (eq. 23) have it. (Facets of random heights seen from opposite sides
+    // would be seen by a Beta function of the Lambdas, which is smaller: Heitz et al. 2016.)
+    T G2_through(const Vec3<T>& o, const Vec3<T>& i, const Vec3<T>& m) const {
+        const Vec3<T> below = -i;
+        if (!(glm::dot(o, m) > 0) || !(glm::dot(below, m) > 0) || !(o.z > 0) || !(below.z > 0)) {
+            return T(0);
+        }
+        if (masking_ == Masking::v_groove) return G1(o, m) * G1(below, m);
+        return 1 / (1 + (smith_lambda(o) + smith_lambda(below)));
+    }
+
     // The density of m, per solid angle of m, with which sample_visible() chooses it.
     T pdf_visible(const Vec3<T>& o, const Vec3<T>& m) const {
         const T om = glm::dot(o, m);

@@ -1,7 +1,7 @@
 // N floats side by side in SIMD registers, one lane a wavelength.
 //
 // Built on the vector extension that g++ and clang share: the same source runs on any x86-64 and
-// becomes AVX or AVX-512 where the build allows it. N is a multiple of 8.
+// becomes AVX or AVX-512 where the build allows it. N is 4 or a multiple of 8.
 #pragma once
 
 #include <cmath>
@@ -17,20 +17,24 @@
 
 namespace drude {
 
+// Lanes of a register.
+template <int N>
+inline constexpr int packet_lanes = N < 8 ? N : 8;
+
 template <int N>
 struct PacketMask {
-    static constexpr int registers = N / 8;
-    using Vector [[gnu::vector_size(32)]] = int32_t;
+    static constexpr int registers = N / packet_lanes<N>;
+    using Vector [[gnu::vector_size(4 * packet_lanes<N>)]] = int32_t;
     Vector v[registers];  // -1 true, 0 false
 };
 
 template <int N>
 struct Packet {
-    static_assert(N % 8 == 0 && N > 0, "a packet fills whole registers");
+    static_assert(N == 4 || (N % 8 == 0 && N > 0), "a packet fills whole registers");
     static constexpr int size = N;
-    static constexpr int registers = N / 8;
-    using Vector [[gnu::vector_size(32)]] = float;
-    using IntVector [[gnu::vector_size(32)]] = int32_t;
+    static constexpr int registers = N / packet_lanes<N>;
+    using Vector [[gnu::vector_size(4 * packet_lanes<N>)]] = float;
+    using IntVector [[gnu::vector_size(4 * packet_lanes<N>)]] = int32_t;
     Vector v[registers];
 
     Packet() = default;
@@ -47,8 +51,8 @@ struct Packet {
         return p;
     }
     void store(float* lanes) const { std::memcpy(lanes, v, sizeof v); }
-    float operator[](int lane) const { return v[lane / 8][lane % 8]; }
-    void set(int lane, float value) { v[lane / 8][lane % 8] = value; }
+    float operator[](int lane) const { return v[lane / packet_lanes<N>][lane % packet_lanes<N>]; }
+    void set(int lane, float value) { v[lane / packet_lanes<N>][lane % packet_lanes<N>] = value; }
 
     Packet& operator+=(const Packet& b) { return *this = *this + b; }
     Packet& operator-=(const Packet& b) { return *this = *this - b; }
@@ -112,6 +116,17 @@ Packet<N> abs(const Packet<N>& a) {
     return max(a, -a);
 }
 
+#if defined(__SSE2__)
+inline Packet<4> sqrt(const Packet<4>& a) {
+    __m128 lanes;
+    std::memcpy(&lanes, a.v, sizeof lanes);
+    lanes = _mm_sqrt_ps(lanes);
+    Packet<4> r;
+    std::memcpy(r.v, &lanes, sizeof lanes);
+    return r;
+}
+#endif
+
 template <int N>
 Packet<N> sqrt(const Packet<N>& a) {
     Packet<N> r;
@@ -126,7 +141,9 @@ Packet<N> sqrt(const Packet<N>& a) {
         half[1] = _mm_sqrt_ps(half[1]);
         std::memcpy(&r.v[i], half, sizeof half);
 #else
-        for (int lane = 0; lane < 8; ++lane) r.v[i][lane] = std::sqrt(a.v[i][lane]);
+        for (int lane = 0; lane < packet_lanes<N>; ++lane) {
+            r.v[i][lane] = std::sqrt(a.v[i][lane]);
+        }
 #endif
     }
     return r;

@@ -36,13 +36,14 @@ struct TracerSetup {
     const Scene& scene;
     const Geometry& geometry;
     const Lights& lights;
+    const OpticalElements& elements;
     const CameraRays& camera;
     const PixelFilter& filter;
     uint64_t seed;
     int max_depth;
 };
 
-// `wavelengths` is 8, 16 or spectral_bins.
+// `wavelengths` is 4, 8, 16 or spectral_bins.
 std::unique_ptr<BatchTracer> make_batch_tracer(Transport transport, int wavelengths,
                                                const TracerSetup& setup);
 

@@ -10,9 +10,14 @@ template <Transport transport, int N>
 class PacketBatchTracer final : public BatchTracer {
   public:
     explicit PacketBatchTracer(const TracerSetup& setup)
-        : setup_(setup),
-          tables_(setup.scene),
-          path_(setup.scene, setup.geometry, setup.lights, tables_, setup.camera.handedness()) {}
+        : setup_(setup), tables_(setup.scene), path_{setup.scene,
+                                                     setup.geometry,
+                                                     setup.lights,
+                                                     setup.elements,
+                                                     tables_,
+                                                     setup.camera.handedness(),
+                                                     setup.max_depth,
+                                                     before_the_camera(setup.scene.camera)} {}
 
     void trace(const BatchRequest& request, BatchResult* result,
                PathStatistics* statistics) const override {
@@ -34,12 +39,14 @@ class PacketBatchTracer final : public BatchTracer {
             float weight_x = 1, weight_y = 1;
             const float dx = setup_.filter.offset_x(u.x, &weight_x);
             const float dy = setup_.filter.offset_y(u.y, &weight_y);
-            const CameraRay ray = setup_.camera(request.x + 0.5 + static_cast<double>(dx),
-                                                request.y + 0.5 + static_cast<double>(dy));
+            const double x_film = request.x + 0.5 + static_cast<double>(dx);
+            const double y_film = request.y + 0.5 + static_cast<double>(dy);
+            const CameraRay ray = setup_.camera.has_lens()
+                                      ? setup_.camera(x_film, y_film, sampler.next_2d())
+                                      : setup_.camera(x_film, y_film);
             const int phase = Wavelengths<N>::phase(sampler.next_1d());
-            Contribution<transport, N> radiance;
-            for (Packet<N>& s : radiance.s) s = Packet<N>(0.0f);
-            path_.trace(ray, phase, setup_.max_depth, sampler, &radiance, statistics);
+            Path<transport, N> path(path_, phase, sampler, *statistics);
+            const Contribution<transport, N>& radiance = path.trace(ray);
             const Packet<N> x = tables_.x[phase], y = tables_.y[phase], z = tables_.z[phase];
             for (int i = 0; i < rows; ++i) {
                 const Packet<N> s = radiance.s[i] * Packet<N>(weight_x * weight_y);
@@ -70,14 +77,26 @@ class PacketBatchTracer final : public BatchTracer {
     }
 
   private:
+    static Throughput<transport, N> before_the_camera(const Camera& camera) {
+        if (!camera.analyser) return {};
+        const Mueller<double> analyser = mueller(*camera.analyser);
+        Mueller<float> m;
+        for (int i = 0; i < 4; ++i) {
+            for (int j = 0; j < 4; ++j) m.m[i][j] = static_cast<float>(analyser.m[i][j]);
+        }
+        return Throughput<transport, N>(m);
+    }
+
     TracerSetup setup_;
     SpectralTables<N> tables_;
-    PathTracer<transport, N> path_;
+    PathSetup<transport, N> path_;
 };
 
 template <Transport transport>
 std::unique_ptr<BatchTracer> make_packet_tracer(int wavelengths, const TracerSetup& setup) {
     switch (wavelengths) {
+        case 4:
+            return std::make_unique<PacketBatchTracer<transport, 4>>(setup);
         case 8:
             return std::make_unique<PacketBatchTracer<transport, 8>>(setup);
         case 16:

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "base/error.h"
+#include "image/equal_area.h"
 #include "materials/scalar.h"
 
 namespace drude {
@@ -14,34 +15,6 @@ namespace drude {
 namespace {
 
 constexpr float pi_f = static_cast<float>(pi);
-
-// Clarberg's equal-area square, in the form of pbrt-v4's documentation of its light space.
-glm::vec3 equal_area_direction(glm::vec2 p) {
-    const float u = 2 * p.x - 1, v = 2 * p.y - 1;
-    const float au = std::abs(u), av = std::abs(v);
-    const float signed_distance = 1 - (au + av);
-    const float r = 1 - std::abs(signed_distance);
-    const float phi = (r == 0 ? 1 : (av - au) / r + 1) * pi_f / 4;
-    const float z = std::copysign(1 - r * r, signed_distance);
-    const float side = r * std::sqrt(std::max(0.0f, 2 - r * r));
-    return {std::copysign(std::cos(phi), u) * side, std::copysign(std::sin(phi), v) * side, z};
-}
-
-glm::vec2 equal_area_square(const glm::vec3& d) {
-    const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
-    // sqrt(1 - z) without the cancellation at the poles.
-    const float r = std::sqrt((x * x + y * y) / (1 + z));
-    const float large = std::max(x, y), small = std::min(x, y);
-    float phi = large == 0 ? 0 : std::atan(small / large) * 2 / pi_f;
-    if (x < y) phi = 1 - phi;
-    float v = phi * r, u = r - v;
-    if (d.z < 0) {
-        std::swap(u, v);
-        u = 1 - u;
-        v = 1 - v;
-    }
-    return {(std::copysign(u, d.x) + 1) / 2, (std::copysign(v, d.y) + 1) / 2};
-}
 
 float luminance(const glm::vec3& rgb) {
     return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
@@ -141,7 +114,7 @@ size_t Environment::texel(const glm::vec3& l) const {
         uv = {(phi < 0 ? phi + 2 * pi_f : phi) / (2 * pi_f),
               std::atan2(std::sqrt(l.x * l.x + l.y * l.y), l.z) / pi_f};
     } else {
-        uv = equal_area_square(l);
+        uv = equal_area_square<float>(l);
     }
     const int x = std::clamp(static_cast<int>(uv.x * static_cast<float>(width_)), 0, width_ - 1);
     const int y = std::clamp(static_cast<int>(uv.y * static_cast<float>(height_)), 0, height_ - 1);
@@ -178,7 +151,7 @@ Environment::Sample Environment::sample(const glm::vec2& u) const {
         const float r = std::sqrt(std::max(0.0f, 1 - z * z));
         l = {r * std::cos(phi), r * std::sin(phi), z};
     } else {
-        l = equal_area_direction(
+        l = equal_area_direction<float>(
             {fx, (static_cast<float>(y) + inside_y) / static_cast<float>(height_)});
     }
     Sample s;

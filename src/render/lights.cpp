@@ -7,6 +7,7 @@
 
 #include "image/image.h"
 #include "materials/scalar.h"
+#include "render/camera_ray.h"
 
 namespace drude {
 
@@ -14,6 +15,15 @@ namespace {
 
 constexpr float infinite_distance = std::numeric_limits<float>::infinity();
 constexpr float pi_f = static_cast<float>(pi);
+
+// The share of a spot's intensity at an angle from its axis: pbrt-v4's smooth step of the cosine.
+double spot_falloff(const PointLight& light, double cosine) {
+    if (light.cos_end <= -1 && light.cos_start <= -1) return 1;  // a point light
+    if (cosine <= light.cos_end) return 0;
+    if (cosine >= light.cos_start) return 1;
+    const double t = (cosine - light.cos_end) / (light.cos_start - light.cos_end);
+    return t * t * (3 - 2 * t);
+}
 
 double luminance_of(const DenseSpectrum& spectrum) {
     return spectrum_to_xyz(spectrum)[1];
@@ -62,7 +72,11 @@ void Lights::make_choice() {
 }
 
 Lights::Lights(const Scene& scene, const Geometry& geometry)
-    : scene_(scene), geometry_(geometry), first_of_shape_(scene.shapes.size(), -1) {
+    : scene_(scene),
+      geometry_(geometry),
+      first_of_shape_(scene.shapes.size(), -1),
+      any_polarised_(has_polarised_lights(scene)) {
+    const double handedness = picture_handedness(scene.camera);
     const double extent = std::max(1e-6, static_cast<double>(geometry.radius()));
     const double cross_section = pi * extent * extent;
     for (size_t i = 0; i < scene.infinite_lights.size(); ++i) {
@@ -82,6 +96,7 @@ Lights::Lights(const Scene& scene, const Geometry& geometry)
                                 light.image, repaired));
             }
         }
+        infinite.polarisation = SkyPolarisation(light, handedness);
         infinite_.push_back(std::move(infinite));
         add({infinite_.back().environment ? Kind::environment : Kind::constant,
              static_cast<int>(i)},
@@ -90,6 +105,20 @@ Lights::Lights(const Scene& scene, const Geometry& geometry)
     for (size_t i = 0; i < scene.distant_lights.size(); ++i) {
         add({Kind::distant, static_cast<int>(i)},
             cross_section * luminance_of(scene.distant_lights[i].irradiance), emitters_.size());
+        distant_polarisation_.emplace_back(scene.distant_lights[i].polarisation, handedness);
+    }
+    for (size_t i = 0; i < scene.point_lights.size(); ++i) {
+        // From afar it sends the scene no more than what falls on its cross-section.
+        const PointLight& light = scene.point_lights[i];
+        const glm::dvec3 to = glm::dvec3(geometry.centre()) - light.position;
+        const double solid_angle =
+            std::min(4 * pi, cross_section / std::max(1e-30, glm::dot(to, to)));
+        add({Kind::point, static_cast<int>(i)}, solid_angle * luminance_of(light.intensity),
+            emitters_.size());
+        point_polarisation_.emplace_back(light.polarisation, handedness);
+    }
+    for (const AreaLight& light : scene.area_lights) {
+        area_polarisation_.emplace_back(light.polarisation, handedness);
     }
     for (size_t i = 0; i < scene.shapes.size(); ++i) {
         const Shape& shape = scene.shapes[i];
@@ -98,28 +127,9 @@ Lights::Lights(const Scene& scene, const Geometry& geometry)
         const double exitance = pi * luminance_of(light.radiance) * (light.two_sided ? 2 : 1);
         const size_t first = emitters_.size();
         first_of_shape_[i] = static_cast<int>(first);
-        if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
-            for (unsigned t = 0; t < mesh->triangles.size(); ++t) {
-                glm::vec3 c[3];
-                geometry.triangle(static_cast<int>(i), t, c);
-                const glm::dvec3 a(c[0]);
-                const double area =
-                    0.5 * glm::length(glm::cross(glm::dvec3(c[1]) - a, glm::dvec3(c[2]) - a));
-                add({Kind::area, static_cast<int>(i), t, static_cast<float>(area)}, exitance * area,
-                    first);
-            }
-        } else {
-            const Sphere& s = std::get<Sphere>(shape.geometry);
-            const double area = s.phi_max_deg / 360 * 2 * pi * s.radius *
-                                (std::min(s.z_max, s.radius) - std::max(s.z_min, -s.radius));
-            double stretch = 0;
-            for (int axis = 0; axis < 3; ++axis) {
-                glm::dvec3 n(0);
-                n[axis] = 1;
-                stretch += geometry.area_stretch(static_cast<int>(i), n) / 3;
-            }
-            add({Kind::area, static_cast<int>(i), 0, static_cast<float>(area)},
-                exitance * area * stretch, first);
+        for (unsigned p = 0; p < geometry.primitives(static_cast<int>(i)); ++p) {
+            add({Kind::area, static_cast<int>(i), p},
+                exitance * geometry.area(static_cast<int>(i), p), first);
         }
     }
     make_choice();
@@ -134,46 +144,65 @@ float Lights::area_pdf(const Hit& hit, const glm::vec3& d, float distance) const
     const int first = first_of_shape_[hit.shape];
     if (first < 0 || emitters_.empty()) return 0;
     const size_t i = static_cast<size_t>(first) + hit.primitive;
-    float area = emitters_[i].area;
-    if (std::holds_alternative<Sphere>(scene_.shapes[hit.shape].geometry)) {
-        area *= static_cast<float>(geometry_.area_stretch_at(hit.shape, hit.p));
-    }
     const float cosine = std::abs(glm::dot(hit.ng, d));
-    return cosine > 0 && area > 0 ? choice(i) * distance * distance / (cosine * area) : 0;
+    return cosine > 0 ? choice(i) * distance * distance / cosine * geometry_.density(hit) : 0;
 }
 
 void Lights::sample_area(const Emitter& e, float choice, const glm::vec3& at, const glm::vec2& u,
                          Sample* s) const {
     const Shape& shape = scene_.shapes[e.index];
-    Hit hit;
-    float area = e.area;
-    if (std::holds_alternative<TriangleMesh>(shape.geometry)) {
-        const float root = std::sqrt(u.x);
-        hit = geometry_.on_triangle(e.index, e.primitive, root * (1 - u.y), root * u.y);
-    } else {
-        // Uniform in the object's own area, which the transformation stretches by its place.
-        const Sphere& sphere = std::get<Sphere>(shape.geometry);
-        const double low = std::max(sphere.z_min, -sphere.radius);
-        const double high = std::min(sphere.z_max, sphere.radius);
-        const double z = low + static_cast<double>(u.x) * (high - low);
-        const double phi = static_cast<double>(u.y) * sphere.phi_max_deg * pi / 180;
-        const double r = std::sqrt(std::max(0.0, sphere.radius * sphere.radius - z * z));
-        const glm::dvec3 object(r * std::cos(phi), r * std::sin(phi), z);
-        hit = geometry_.on_sphere(e.index, object);
-        area *= static_cast<float>(geometry_.area_stretch(e.index, object / sphere.radius));
-    }
+    auto [hit, density] = geometry_.sample(e.index, e.primitive, u);
     const glm::vec3 to = hit.p - at;
     const float distance2 = glm::dot(to, to);
     s->light = shape.area_light;
-    if (!(distance2 > 0) || !(area > 0)) return;
+    if (!(distance2 > 0) || !(density > 0)) return;
     s->distance = std::sqrt(distance2);
     s->d = to / s->distance;
     const float cosine = -glm::dot(hit.ng, s->d);
     if (cosine == 0 || (cosine < 0 && !scene_.area_lights[shape.area_light].two_sided)) return;
-    s->pdf = choice * distance2 / (std::abs(cosine) * area);
+    s->pdf = choice * distance2 / std::abs(cosine) * density;
     // Off the light by its own rounding and by that of a ray over the distance.
     hit.error += 4 * std::numeric_limits<float>::epsilon() * s->distance;
     s->target = leave(hit, -s->d);
+}
+
+void Lights::sample_point(const PointLight& light, float choice, const glm::vec3& at,
+                          Sample* s) const {
+    const glm::dvec3 to = light.position - glm::dvec3(at);
+    const double distance2 = glm::dot(to, to), distance = std::sqrt(distance2);
+    if (!(distance2 > 0)) return;
+    const double falloff = spot_falloff(light, -glm::dot(light.axis, to) / distance);
+    s->d = glm::vec3(to / distance);
+    s->distance = static_cast<float>(distance);
+    // Lamps are put on surfaces; pbrt-v4 stops a ten-thousandth before them too.
+    s->target = glm::vec3(light.position - 1e-4 * to);
+    s->is_delta = true;
+    if (falloff > 0) s->pdf = static_cast<float>(static_cast<double>(choice) * distance2 / falloff);
+}
+
+ArrivingPolarisation Lights::area_polarisation(int shape, const glm::vec3& d) const {
+    const UniformPolarisation& light = area_polarisation_[scene_.shapes[shape].area_light];
+    if (light.none()) return {};
+    // Lengths far beyond 1 would overflow when squared.
+    return light.arriving(
+        d, glm::vec3(glm::normalize(glm::dvec3(scene_.shapes[shape].world_from_object[0]))));
+}
+
+ArrivingPolarisation Lights::polarisation_of(const Sample& s, const Emitter& emitter) const {
+    switch (s.kind) {
+        case Kind::environment:
+        case Kind::constant:
+            return infinite_polarisation(emitter.index, s.d);
+        case Kind::distant:
+            return distant_polarisation_[emitter.index].arriving(
+                s.d, glm::vec3(scene_.distant_lights[emitter.index].x_axis));
+        case Kind::point:
+            return point_polarisation_[emitter.index].arriving(
+                s.d, glm::vec3(scene_.point_lights[emitter.index].x_axis));
+        case Kind::area:
+            break;
+    }
+    return area_polarisation(emitter.index, s.d);
 }
 
 Lights::Sample Lights::sample(const glm::vec3& at, float u_choice, const glm::vec2& u) const {
@@ -206,10 +235,14 @@ Lights::Sample Lights::sample(const glm::vec3& at, float u_choice, const glm::ve
             s.pdf = p;
             s.is_delta = true;
             break;
+        case Kind::point:
+            sample_point(scene_.point_lights[e.index], p, at, &s);
+            break;
         case Kind::area:
             sample_area(e, p, at, u, &s);
             break;
     }
+    if (any_polarised_) s.polarisation = polarisation_of(s, e);
     return s;
 }
 

@@ -9,39 +9,47 @@
 
 #include "render/environment.h"
 #include "render/geometry.h"
+#include "render/light_polarisation.h"
 #include "scene/scene.h"
 
 namespace drude {
 
-// Emitters are whole infinite and distant lights, and single triangles and spheres of area lights.
-// One is picked in proportion to an estimate of the power it sends to the scene; a tenth of the
-// picks goes to every light alike, because what power says of a lamp in a wide landscape is little,
-// and because a distant light that is never picked would be lost.
+// Emitters are whole infinite, distant and point lights, and single triangles and spheres of area
+// lights. One is picked in proportion to an estimate of the power it sends to the scene; a tenth of
+// the picks goes to every light alike, because what power says of a lamp in a wide landscape is
+// little, and because a distant light that is never picked would be lost.
 class Lights {
   public:
     // Reads the environments' pictures. `scene` and `geometry` must outlive it.
     Lights(const Scene& scene, const Geometry& geometry);
 
-    enum class Kind { environment, constant, distant, area };
+    enum class Kind { environment, constant, distant, point, area };
 
     struct Sample {
         Kind kind = Kind::constant;
-        int light = -1;         // index in the scene's list of that kind
-        glm::vec3 d{0};         // towards the light, unit
-        float distance = 0;     // infinite for lights without a place
-        glm::vec3 target{0};    // a point so close before the light that nothing stands between
-        float pdf = 0;          // per solid angle, choice of the light included; 0: no sample
-        bool is_delta = false;  // no lobe sample ever finds it; pdf is then the choice's alone
-        glm::vec3 rgb{0};       // radiance from an environment's picture
+        int light = -1;       // index in the scene's list of that kind
+        glm::vec3 d{0};       // towards the light, unit
+        float distance = 0;   // infinite for lights without a place
+        glm::vec3 target{0};  // a point so close before the light that nothing stands between
+        float pdf = 0;        // per solid angle, choice of the light included; 0: no sample
+        // No lobe sample ever finds it. The pdf is then what divides the light's own spectrum: of
+        // a distant light its choice's alone, of a point light that times the squared distance,
+        // over the falloff of a spot.
+        bool is_delta = false;
+        glm::vec3 rgb{0};                   // radiance from an environment's picture
+        ArrivingPolarisation polarisation;  // filled where any_polarised()
     };
     // `at` is where the light is wanted; u_choice, u uniform in [0, 1).
     Sample sample(const glm::vec3& at, float u_choice, const glm::vec2& u) const;
 
     bool empty() const { return emitters_.empty(); }
+    // Whether light of some emitter is polarised; otherwise the dop of everything here is 0.
+    bool any_polarised() const { return any_polarised_; }
 
     struct Infinite {
         std::unique_ptr<Environment> environment;  // null: constant
         float choice = 0;                          // probability of being picked
+        SkyPolarisation polarisation;
     };
     const std::vector<Infinite>& infinite() const { return infinite_; }
     // The density of sample() towards d for an infinite light.
@@ -49,14 +57,22 @@ class Lights {
     // The density of sample() for a hit on an area light, seen from `distance` along d.
     float area_pdf(const Hit& hit, const glm::vec3& d, float distance) const;
 
+    // How polarised the light is that an infinite light sends from d, and that a hit on an area
+    // light sends against d.
+    ArrivingPolarisation infinite_polarisation(size_t light, const glm::vec3& d) const {
+        return infinite_[light].polarisation.arriving(d);
+    }
+    ArrivingPolarisation area_polarisation(const Hit& hit, const glm::vec3& d) const {
+        return area_polarisation(hit.shape, d);
+    }
+
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
     struct Emitter {
         Kind kind;
-        int index;  // of the light (infinite, distant) or of the shape (area)
+        int index;  // of the light (infinite, distant, point) or of the shape (area)
         unsigned primitive = 0;
-        float area = 0;  // of a triangle in the world, of a sphere in its own space
     };
     // `emitter` and those added since `first_of_light` are one light.
     void add(const Emitter& emitter, double power, size_t first_of_light);
@@ -64,6 +80,10 @@ class Lights {
     float choice(size_t emitter) const;
     void sample_area(const Emitter& emitter, float choice, const glm::vec3& at, const glm::vec2& u,
                      Sample* sample) const;
+    void sample_point(const PointLight& light, float choice, const glm::vec3& at,
+                      Sample* sample) const;
+    ArrivingPolarisation area_polarisation(int shape, const glm::vec3& d) const;
+    ArrivingPolarisation polarisation_of(const Sample& sample, const Emitter& emitter) const;
 
     const Scene& scene_;
     const Geometry& geometry_;
@@ -73,6 +93,8 @@ class Lights {
     std::vector<size_t> light_of_;     // first emitter of the light that an emitter belongs to
     std::vector<float> cdf_;           // cumulative probability of the emitters
     std::vector<int> first_of_shape_;  // emitter of a shape's first primitive, or -1
+    bool any_polarised_ = false;
+    std::vector<UniformPolarisation> distant_polarisation_, point_polarisation_, area_polarisation_;
     std::vector<std::string> warnings_;
 };
 

@@ -1,65 +1,49 @@
 // A sphere cut in z and phi, intersected in double in its own space.
 #pragma once
 
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec3.hpp>
-#include <limits>
+#include <algorithm>
 
-#include "materials/scalar.h"
+#include "render/round_frame.h"
 #include "scene/scene.h"
 
 namespace drude {
 
-class PartialSphere {
+class PartialSphere : public RoundFrame {
   public:
     PartialSphere(const Sphere& sphere, const glm::dmat4& world_from_object)
-        : world_from_object_(world_from_object),
-          object_from_world_(glm::inverse(world_from_object)),
+        : RoundFrame(world_from_object, sphere.phi_max_deg, sphere.radius),
           radius_(sphere.radius),
           z_min_(std::max(sphere.z_min, -sphere.radius)),
           z_max_(std::min(sphere.z_max, sphere.radius)),
-          phi_max_(sphere.phi_max_deg * pi / 180),
-          whole_(z_min_ <= -radius_ && z_max_ >= radius_ && sphere.phi_max_deg >= 360) {}
+          theta_min_(std::acos(z_min_ / radius_)),
+          theta_max_(std::acos(z_max_ / radius_)),
+          whole_(z_min_ <= -radius_ && z_max_ >= radius_ && all_round()) {}
 
-    bool whole() const { return whole_; }
-    double radius() const { return radius_; }
-    double z_min() const { return z_min_; }
-    double z_max() const { return z_max_; }
-    double phi_max() const { return phi_max_; }
-    const glm::dmat4& world_from_object() const { return world_from_object_; }
+    // A box around it in object space.
+    glm::dvec3 low() const { return {-widest(), -widest(), z_min_}; }
+    glm::dvec3 high() const { return {widest(), widest(), z_max_}; }
 
-    glm::dvec3 to_object(const glm::dvec3& p) const {
-        return glm::dvec3(object_from_world_ * glm::dvec4(p, 1));
-    }
-    glm::dvec3 to_world(const glm::dvec3& p) const {
-        return glm::dvec3(world_from_object_ * glm::dvec4(p, 1));
-    }
-    glm::dvec3 direction_to_object(const glm::dvec3& d) const {
-        return glm::dvec3(object_from_world_ * glm::dvec4(d, 0));
-    }
-    // Outward normal in the world at a point of the object's surface, unit.
-    glm::dvec3 world_normal(const glm::dvec3& object_point) const {
-        return glm::normalize(glm::transpose(glm::dmat3(object_from_world_)) * object_point);
-    }
-    // World area per object area where the object's outward normal is n (unit): that of a surface
-    // element is |det M| |M^-T n|.
-    double area_stretch(const glm::dvec3& n) const {
-        return std::abs(glm::determinant(glm::dmat3(world_from_object_))) *
-               glm::length(glm::transpose(glm::dmat3(object_from_world_)) * n);
-    }
-    // What rounding in double does to the world's coordinates of a point of the surface.
-    double rounding() const {
-        double size = glm::length(glm::dvec3(world_from_object_[3]));
-        for (int i = 0; i < 3; ++i)
-            size += radius_ * glm::length(glm::dvec3(world_from_object_[i]));
-        return 16 * std::numeric_limits<double>::epsilon() * size;
-    }
     // The point of the surface on the same radius, in object space.
     glm::dvec3 on_surface(const glm::dvec3& object_point) const {
         return object_point * (radius_ / glm::length(object_point));
+    }
+    // Outward, of any length; `object_point` need not lie on the surface exactly.
+    glm::dvec3 normal(const glm::dvec3& object_point) const { return object_point; }
+    // u is the part of phi, v that of theta from z_min to z_max; both in [0, 1] (as pbrt-v4).
+    glm::dvec2 uv(const glm::dvec3& object_point) const {
+        const double cosine = object_point.z / glm::length(object_point);
+        const double theta = std::acos(std::clamp(cosine, -1.0, 1.0));
+        const double v = (theta - theta_min_) / (theta_max_ - theta_min_);
+        return {u(object_point), std::clamp(v, 0.0, 1.0)};
+    }
+
+    // In its own space.
+    double object_area() const { return phi_max() * radius_ * (z_max_ - z_min_); }
+    // Uniform in that area for uniform u (Archimedes: z and phi are uniform).
+    glm::dvec3 sample(const glm::dvec2& u) const {
+        const double z = z_min_ + u.x * (z_max_ - z_min_), angle = u.y * phi_max();
+        const double r = std::sqrt(std::max(0.0, radius_ * radius_ - z * z));
+        return {r * std::cos(angle), r * std::sin(angle), z};
     }
 
     // The smallest t in (t_min, t_max) at which o + t d (world space) meets the surface, or a
@@ -86,15 +70,17 @@ class PartialSphere {
   private:
     bool keeps(const glm::dvec3& p) const {
         if (whole_) return true;
-        if (p.z < z_min_ || p.z > z_max_) return false;
-        if (phi_max_ >= 2 * pi) return true;
-        double phi = std::atan2(p.y, p.x);
-        if (phi < 0) phi += 2 * pi;
-        return phi <= phi_max_;
+        return p.z >= z_min_ && p.z <= z_max_ && keeps_phi(p);
+    }
+    // Radius of the widest circle between the cuts.
+    double widest() const {
+        if (z_min_ <= 0 && z_max_ >= 0) return radius_;
+        const double nearest = std::min(std::abs(z_min_), std::abs(z_max_));
+        return std::sqrt(std::max(0.0, radius_ * radius_ - nearest * nearest));
     }
 
-    glm::dmat4 world_from_object_, object_from_world_;
-    double radius_, z_min_, z_max_, phi_max_;
+    double radius_, z_min_, z_max_;
+    double theta_min_, theta_max_;  // at z_min and z_max; theta is measured from +z
     bool whole_;
 };
 

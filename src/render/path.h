@@ -1,12 +1,15 @@
 // One path, from the camera until it leaves the scene: the renderer's inner loop.
 #pragma once
 
+#include "render/beam.h"
 #include "render/camera_ray.h"
-#include "render/geometry.h"
 #include "render/lights.h"
+#include "render/optical_elements.h"
 #include "render/sampler.h"
 #include "render/spectral_tables.h"
+#include "render/surface_scattering.h"
 #include "render/throughput.h"
+#include "render/vertex.h"
 
 namespace drude {
 
@@ -16,136 +19,327 @@ struct PathStatistics {
     uint64_t not_finite = 0;   // contributions dropped because they were not numbers: a bug
 };
 
+// What every path of a render shares.
 template <Transport transport, int N>
-class PathTracer {
+struct PathSetup {
+    const Scene& scene;
+    const Geometry& geometry;
+    const Lights& lights;
+    const OpticalElements& elements;
+    const SpectralTables<N>& tables;
+    float handedness;
+    int max_depth;
+    Throughput<transport, N> first;  // the camera's analyser, or nothing
+};
+
+template <Transport transport, int N>
+class Path {
   public:
-    PathTracer(const Scene& scene, const Geometry& geometry, const Lights& lights,
-               const SpectralTables<N>& tables, float handedness)
-        : scene_(scene), geometry_(geometry), lights_(lights), tables_(tables), h_(handedness) {}
+    Path(const PathSetup<transport, N>& setup, int phase, Sampler& sampler,
+         PathStatistics& statistics)
+        : setup_(setup),
+          scene_(setup.scene),
+          lights_(setup.lights),
+          tables_(setup.tables),
+          polarised_(setup.lights.any_polarised()),
+          h_(setup.handedness),
+          phase_(phase),
+          sampler_(sampler),
+          statistics_(statistics),
+          beam_{setup.first} {
+        for (Packet<N>& s : radiance_.s) s = Packet<N>(0.0f);
+    }
 
-    // Adds to `radiance` what arrives along the camera ray at the wavelengths of `phase`.
-    void trace(const CameraRay& camera, int phase, int max_depth, Sampler& sampler,
-               Contribution<transport, N>* radiance, PathStatistics* statistics) const {
-        Throughput<transport, N> throughput;
-        glm::vec3 o = camera.o, d = camera.d;
-        glm::vec3 x = camera.horizontal;  // x axis of the columns' frame on the ray along -d
-        // The density with which the lobe chose d; 0 where no light sample competes with it.
-        float lobe_pdf = 0;
-        const auto add = [&](Contribution<transport, N> c, float weight, int bounces) {
-            const float excess = project_on_cone(&c);
-            statistics->projections += excess > 1e-5f * static_cast<float>(bounces + 1);
-            const float check = sum(c.s[0]) * weight;
-            if (!(check < std::numeric_limits<float>::infinity())) {
-                ++statistics->not_finite;
-                return;
-            }
-            for (int i = 0; i < carried_rows<transport>; ++i) {
-                radiance->s[i] += c.s[i] * Packet<N>(weight);
-            }
-        };
-
-        for (int depth = 0;;) {
-            Hit hit;
-            ++statistics->rays;
-            if (!geometry_.intersect(o, d, &hit)) {
-                for (size_t i = 0; i < lights_.infinite().size(); ++i) {
-                    const float weight =
-                        lobe_pdf > 0 ? mis(lobe_pdf, lights_.infinite_pdf(i, d)) : 1;
-                    add(throughput.unpolarised(infinite_radiance(i, d, phase)), weight, depth);
-                }
-                return;
-            }
-            const Shape& shape = scene_.shapes[hit.shape];
-            if (shape.area_light >= 0 && emits(shape, hit, d)) {
-                const float distance = glm::length(hit.p - o);
-                const float weight =
-                    lobe_pdf > 0 ? mis(lobe_pdf, lights_.area_pdf(hit, d, distance)) : 1;
-                add(throughput.unpolarised(tables_.area_radiance[shape.area_light][phase]), weight,
-                    depth);
-            }
-            if (depth++ == max_depth) return;
-
-            // Local coordinates on the side that the path arrives from.
-            const glm::vec3 wo = -d;
-            if (glm::dot(hit.ng, wo) < 0) {
-                hit.ng = -hit.ng;
-                hit.ns = -hit.ns;
-            }
-            if (!(glm::dot(hit.ns, wo) > 0)) hit.ns = hit.ng;
-            const glm::vec3 tangent = any_perpendicular(hit.ns);
-            const glm::vec3 bitangent = glm::cross(hit.ns, tangent);
-            const auto to_world = [&](const glm::vec3& v) {
-                return v.x * tangent + v.y * bitangent + v.z * hit.ns;
-            };
-            const auto to_local = [&](const glm::vec3& v) {
-                return glm::vec3(glm::dot(v, tangent), glm::dot(v, bitangent), glm::dot(v, hit.ns));
-            };
-            const glm::vec3 o_local = to_local(wo);
-
-            if (std::holds_alternative<DiffuseMaterial>(scene_.materials[shape.material])) {
-                const Packet<N> reflectance = tables_.diffuse_reflectance[shape.material][phase];
-                if (const Lights::Sample l = light_sample(hit, sampler); l.pdf > 0) {
-                    const float cosine = glm::dot(l.d, hit.ns);
-                    if (cosine > 0 && visible(hit, l, statistics)) {
-                        const float lobe = cosine / static_cast<float>(pi);
-                        const float weight = l.is_delta ? 1 : mis(l.pdf, lobe);
-                        add(throughput.unpolarised(reflectance * radiance_of(l, phase)),
-                            weight * lobe / l.pdf, depth);
-                    }
-                }
-                const glm::vec2 u = sampler.next_2d();
-                const float r = std::sqrt(u.x), phi = static_cast<float>(2 * pi) * u.y;
-                const glm::vec3 i(r * std::cos(phi), r * std::sin(phi),
-                                  std::sqrt(std::max(0.0f, 1 - u.x)));
-                throughput.depolarise(reflectance);
-                d = glm::normalize(to_world(i));
-                lobe_pdf = i.z / static_cast<float>(pi);
-                x = any_perpendicular(d);
-                if (!(lobe_pdf > 0) || !(glm::dot(d, hit.ng) > 0)) return;
-            } else {
-                const ConductorTables<N>& metal = tables_.conductors[shape.material];
-                glm::vec3 m(0, 0, 1), i(-o_local.x, -o_local.y, o_local.z);
-                float factor = 1;
-                lobe_pdf = 0;
-                if (!metal.microfacets.is_mirror()) {
-                    if (const Lights::Sample l = light_sample(hit, sampler); l.pdf > 0) {
-                        add_light_over_lobe(throughput, metal, l, hit, wo, x, to_world, o_local,
-                                            to_local(l.d), phase, depth, statistics, add);
-                    }
-                    const glm::vec2 u = sampler.next_2d();
-                    const auto s = metal.microfacets.sample(o_local, u.x, u.y, sampler.next_1d());
-                    if (!(s.weight > 0) || !(s.pdf > 0)) return;
-                    m = s.m;
-                    i = s.i;
-                    factor = s.weight;
-                    lobe_pdf = s.pdf;
-                }
-                const glm::vec3 wi = glm::normalize(to_world(i));
-                if (!(glm::dot(wi, hit.ng) > 0)) return;
-                const glm::vec3 s = s_axis(-wi, to_world(m));
-                throughput.reflect(rotation_between(wo, x, s, h_),
-                                   metal.reflection(std::min(1.0f, glm::dot(i, m)), phase), factor);
-                d = wi;
-                x = s;
-            }
-            o = leave(hit, d);
-
-            // Roulette on S0 alone: it bounds every other element of the product.
-            const float alive = max_lane(throughput.corner());
-            if (!(alive > 0)) return;
-            if (depth > 2) {
+    // What arrives along the camera ray at the wavelengths of the phase.
+    const Contribution<transport, N>& trace(const CameraRay& camera) {
+        o_ = camera.o;
+        d_ = camera.d;
+        beam_.x = camera.horizontal;
+        from_ = o_;
+        const float start = max_lane(beam_.throughput.corner());
+        while (step()) {
+            // Roulette on S0 alone: it bounds every other element of the product. What refraction
+            // does to radiance is taken back, since it comes back when the path leaves again.
+            const float alive = max_lane(beam_.throughput.corner()) * radiance_scale_ / start;
+            if (!(alive > 0)) break;
+            if (depth_ > 2) {
                 // Between perfect mirrors nothing else would ever end a path.
-                const float at_most = depth > 64 ? 0.95f : 1.0f;
+                const float at_most = depth_ > 64 ? 0.95f : 1.0f;
                 const float survival = std::clamp(alive, 0.05f, at_most);
                 if (survival < 1) {
-                    if (sampler.next_1d() >= survival) return;
-                    throughput.scale(1 / survival);
+                    if (sampler_.next_1d() >= survival) break;
+                    beam_.throughput.scale(1 / survival);
                 }
             }
         }
+        return radiance_;
     }
 
   private:
+    // To the next surface and off it; whether the path goes on.
+    bool step() {
+        Hit hit;
+        ++statistics_.rays;
+        const bool is_hit = setup_.geometry.intersect(o_, d_, &hit);
+        if (!setup_.elements.empty()) {
+            pass_elements(o_, d_,
+                          is_hit ? glm::length(hit.p - o_) : std::numeric_limits<float>::infinity(),
+                          beam_);
+        }
+        if (!is_hit) {
+            add_infinite_lights();
+            return false;
+        }
+        const Shape& shape = scene_.shapes[hit.shape];
+        if (shape.area_light >= 0) add_area_light(shape, hit);
+        const int material = chosen_material(shape.material);
+        if (material < 0) {
+            // Nothing here after all: straight on. Light sampling took the surface for solid, so
+            // that nothing competes with what is found behind it.
+            o_ = leave(hit, d_);
+            lobe_pdf_ = 0;
+            return ++passed_ < most_passed;
+        }
+        if (depth_++ == setup_.max_depth) return false;
+
+        const Vertex v(hit, d_);
+        return std::visit([&](const auto& surface) { return scatter_at(v, surface); },
+                          tables_.surfaces[material]);
+    }
+
+    // ---- surfaces
+
+    bool scatter_at(const Vertex& v, const DiffuseTables<N>& surface) {
+        return scatter(v, DiffuseScattering<N>(surface.reflectance[phase_]));
+    }
+    bool scatter_at(const Vertex& v, const DiffuseTransmissionTables<N>& surface) {
+        return scatter(v, DiffuseTransmissionScattering<N>(surface.reflectance[phase_],
+                                                           surface.transmittance[phase_]));
+    }
+    bool scatter_at(const Vertex& v, const ConductorTables<N>& metal) {
+        return scatter(v, ConductorScattering<N>(metal, metal.microfacets, phase_));
+    }
+    bool scatter_at(const Vertex& v, const DielectricTables<N>& glass) {
+        const Packet<N> index = glass.eta[phase_];
+        const Packet<N> eta = v.front ? index : Packet<N>(1.0f) / index;
+        if (!glass.is_dispersive) {
+            return pass_interface(v, DielectricScattering<N>(glass.interface, eta));
+        }
+        if (hero_ < 0) hero_ = std::min(N - 1, static_cast<int>(sampler_.next_1d() * N));
+        if (!pass_interface(v, DielectricScattering<N>(glass.interface, eta, hero_,
+                                                       parted_ ? 1.0f : static_cast<float>(N)))) {
+            return false;
+        }
+        parted_ |= glm::dot(d_, v.hit.ng) < 0;
+        return true;
+    }
+    bool scatter_at(const Vertex& v, const ThinDielectricTables<N>& plate) {
+        return scatter(v, ThinDielectricScattering<N>(plate.eta[phase_]));
+    }
+    bool scatter_at(const Vertex& v, const CoatTables<N>& coat) {
+        return std::visit([&](const auto& base) { return walk_in_coat(v, coat, base); }, coat.base);
+    }
+    // Neither is part of what is hit.
+    bool scatter_at(const Vertex&, const MixTables&) { return false; }
+    bool scatter_at(const Vertex&, const NoTables&) { return false; }
+
+    // Light at the vertex by sampling lights, then a direction by sampling the surface.
+    template <class Surface>
+    bool scatter(const Vertex& v, const Surface& surface) {
+        const glm::vec3 out = v.to_local(v.out);
+        if (!surface.is_delta()) {
+            if (const Lights::Sample l = light_sample(v.hit); l.pdf > 0) {
+                const glm::vec3 in = v.to_local(l.d);
+                const LobeValue e = surface.evaluate(out, in);
+                if (e.value > 0 && reaches(v, l, e.transmits)) {
+                    const float weight = (l.is_delta ? 1 : mis(l.pdf, e.pdf)) * e.value / l.pdf;
+                    add_light(v, l, surface.optics(out, in, e.m, e.transmits), e.m, weight);
+                }
+            }
+        }
+        const LobeSample s = surface.sample(out, sampler_);
+        if (!(s.weight > 0)) return false;
+        const glm::vec3 in = glm::normalize(v.to_world(s.i));
+        const float side = glm::dot(in, v.hit.ng);
+        if (!(s.transmits ? side < 0 : side > 0)) return false;
+        beam_.scatter(v.out, -in, v.to_world(s.m), surface.optics(out, s.i, s.m, s.transmits),
+                      s.weight, h_);
+        go_on(v.hit, in, s.pdf);
+        return true;
+    }
+
+    bool pass_interface(const Vertex& v, const DielectricScattering<N>& surface) {
+        if (!scatter(v, surface)) return false;
+        if (glm::dot(d_, v.hit.ng) < 0) radiance_scale_ *= surface.hero_eta() * surface.hero_eta();
+        return true;
+    }
+
+    // coat_walk.h
+    template <class Base>
+    bool walk_in_coat(const Vertex& v, const CoatTables<N>& coat, const Base& base);
+    template <class Base>
+    void add_light_through_coat(const Vertex& v, const CoatTables<N>& coat, const Base& base,
+                                const glm::vec3& out);
+    void add_light_through_rough_coat(const Vertex& v, const CoatTables<N>& coat,
+                                      const DielectricScattering<N>& from_below,
+                                      const glm::vec3& up);
+    DiffuseScattering<N> in_coat(const DiffuseTables<N>& base) const {
+        return DiffuseScattering<N>(base.reflectance[phase_]);
+    }
+    ConductorScattering<N> in_coat(const ConductorTables<N>& base) const {
+        return ConductorScattering<N>(base, base.microfacets, phase_);
+    }
+
+    // ---- the state of the path
+
+    void go_on(const Hit& hit, const glm::vec3& d, float lobe_pdf) {
+        o_ = leave(hit, d);
+        d_ = d;
+        from_ = o_;
+        lobe_pdf_ = lobe_pdf;
+    }
+
+    void pass_elements(const glm::vec3& o, const glm::vec3& d, float distance,
+                       Beam<transport, N>& beam) {
+        setup_.elements.along(o, d, distance, [&](const Hit& at) {
+            cancelled_ = std::max(cancelled_, 1e-2f * max_lane(beam.throughput.corner()));
+            beam.throughput.apply(setup_.elements.mueller(at, -d, beam.x, h_));
+        });
+    }
+
+    // Mixtures choose at random; -1 is a surface that is not there.
+    int chosen_material(int material) {
+        while (material >= 0) {
+            const auto* mix = std::get_if<MixTables>(&tables_.surfaces[material]);
+            if (mix == nullptr) return material;
+            material = sampler_.next_1d() < mix->amount ? mix->second : mix->first;
+        }
+        return material;
+    }
+
+    // ---- light
+
+    // `light` is the radiance that it came from.
+    void add(Contribution<transport, N> c, const Packet<N>& light, float weight) {
+        const float least = cancelled_ > 0 ? cancelled_ * max_lane(light) : 0;
+        const float excess = project_on_cone(&c, least);
+        statistics_.projections += excess > 1e-5f * static_cast<float>(depth_ + 1);
+        const float check = sum(c.s[0]) * weight;
+        if (!(check < std::numeric_limits<float>::infinity())) {
+            ++statistics_.not_finite;
+            return;
+        }
+        for (int i = 0; i < carried_rows<transport>; ++i) {
+            radiance_.s[i] += c.s[i] * Packet<N>(weight);
+        }
+    }
+
+    // What light of this radiance, met along d, brings to the camera.
+    Contribution<transport, N> seen(const Beam<transport, N>& beam, const glm::vec3& d,
+                                    const Packet<N>& light, const ArrivingPolarisation& p) const {
+        if (!(p.dop > 0)) return beam.throughput.unpolarised(light);
+        return beam.throughput.polarised(light, rotation_between(-d, beam.x, p.axis, h_), p.dop);
+    }
+
+    void add_infinite_lights() {
+        for (size_t i = 0; i < lights_.infinite().size(); ++i) {
+            const auto& environment = lights_.infinite()[i].environment;
+            const Packet<N> light = environment
+                                        ? tables_.rgb_light(environment->radiance(d_), phase_)
+                                        : tables_.infinite_radiance[i][phase_];
+            const float weight = lobe_pdf_ > 0 ? mis(lobe_pdf_, lights_.infinite_pdf(i, d_)) : 1;
+            add(seen(beam_, d_, light,
+                     polarised_ ? lights_.infinite_polarisation(i, d_) : ArrivingPolarisation{}),
+                light, weight);
+        }
+    }
+
+    void add_area_light(const Shape& shape, const Hit& hit) {
+        const AreaLight& light = scene_.area_lights[shape.area_light];
+        if (!light.two_sided && !(glm::dot(hit.ng, d_) < 0)) return;
+        const float distance = glm::length(hit.p - from_);
+        const float weight =
+            lobe_pdf_ > 0 ? mis(lobe_pdf_, lights_.area_pdf(hit, d_, distance)) : 1;
+        const Packet<N> radiance = tables_.area_radiance[shape.area_light][phase_];
+        add(seen(beam_, d_, radiance,
+                 polarised_ ? lights_.area_polarisation(hit, d_) : ArrivingPolarisation{}),
+            radiance, weight);
+    }
+
+    // What a light sample brings over a scattering.
+    void add_light(const Vertex& v, const Lights::Sample& l, const Packet<N>& reflectance,
+                   const glm::vec3& m, float weight) {
+        if (is_plain()) {
+            const Packet<N> light = radiance_of(l);
+            add(beam_.throughput.unpolarised(reflectance * light), light, weight);
+        } else {
+            Beam<transport, N> beam = beam_;
+            beam.scatter(v.out, -l.d, m, reflectance, 1, h_);
+            add_light(v, l, beam, weight);
+        }
+    }
+    void add_light(const Vertex& v, const Lights::Sample& l, const Reflection<Packet<N>>& r,
+                   const glm::vec3& m, float weight) {
+        if (is_plain()) {
+            const glm::vec3 s = s_axis(-l.d, v.to_world(m));
+            const Packet<N> light = radiance_of(l);
+            add(beam_.throughput.reflect_unpolarised(rotation_between(v.out, beam_.x, s, h_),
+                                                     r.A() * light, r.B() * light),
+                light, weight);
+        } else {
+            Beam<transport, N> beam = beam_;
+            beam.scatter(v.out, -l.d, v.to_world(m), r, 1, h_);
+            add_light(v, l, beam, weight);
+        }
+    }
+    // Light comes unpolarised and nothing stands in its way.
+    bool is_plain() const { return setup_.elements.empty() && !polarised_; }
+
+    // The same over the whole way: `beam` is the path with the scattering, on the ray along l.d.
+    void add_light(const Vertex& v, const Lights::Sample& l, Beam<transport, N>& beam,
+                   float weight) {
+        if (!setup_.elements.empty()) {
+            const glm::vec3 from = leave(v.hit, l.d);
+            pass_elements(from, l.d,
+                          std::isinf(l.distance) ? l.distance : glm::length(l.target - from), beam);
+        }
+        const Packet<N> light = radiance_of(l);
+        add(seen(beam, l.d, light, l.polarisation), light, weight);
+    }
+
+    Lights::Sample light_sample(const Hit& hit) {
+        const float choice = sampler_.next_1d();
+        return lights_.sample(hit.p, choice, sampler_.next_2d());
+    }
+
+    Packet<N> radiance_of(const Lights::Sample& l) const {
+        switch (l.kind) {
+            case Lights::Kind::environment:
+                return tables_.rgb_light(l.rgb, phase_);
+            case Lights::Kind::constant:
+                return tables_.infinite_radiance[l.light][phase_];
+            case Lights::Kind::distant:
+                return tables_.distant_irradiance[l.light][phase_];
+            case Lights::Kind::point:
+                return tables_.point_intensity[l.light][phase_];
+            case Lights::Kind::area:
+                break;
+        }
+        return tables_.area_radiance[l.light][phase_];
+    }
+
+    // Whether the light sample reaches the surface on the side that it is wanted on.
+    bool reaches(const Vertex& v, const Lights::Sample& l, bool transmits) {
+        const float side = glm::dot(l.d, v.hit.ng);
+        if (!(transmits ? side < 0 : side > 0)) return false;
+        ++statistics_.rays;
+        const glm::vec3 from = leave(v.hit, l.d);
+        if (std::isinf(l.distance)) return !setup_.geometry.occluded(from, l.d, l.distance);
+        const glm::vec3 to = l.target - from;
+        const float distance = glm::length(to);
+        return distance > 0 && !setup_.geometry.occluded(from, to / distance, distance);
+    }
+
     // Power heuristic (Veach 1997, eq. 9.13) for a sample of density a against b.
     static float mis(float a, float b) {
         if (!(b > 0)) return 1;
@@ -153,69 +347,33 @@ class PathTracer {
         return 1 / (1 + ratio * ratio);
     }
 
-    bool emits(const Shape& shape, const Hit& hit, const glm::vec3& d) const {
-        return scene_.area_lights[shape.area_light].two_sided || glm::dot(hit.ng, d) < 0;
-    }
+    static constexpr int most_passed = 10000;
 
-    Packet<N> infinite_radiance(size_t light, const glm::vec3& d, int phase) const {
-        const auto& environment = lights_.infinite()[light].environment;
-        return environment ? tables_.rgb_light(environment->radiance(d), phase)
-                           : tables_.infinite_radiance[light][phase];
-    }
-
-    Lights::Sample light_sample(const Hit& hit, Sampler& sampler) const {
-        const float choice = sampler.next_1d();
-        return lights_.sample(hit.p, choice, sampler.next_2d());
-    }
-
-    Packet<N> radiance_of(const Lights::Sample& l, int phase) const {
-        switch (l.kind) {
-            case Lights::Kind::environment:
-                return tables_.rgb_light(l.rgb, phase);
-            case Lights::Kind::constant:
-                return tables_.infinite_radiance[l.light][phase];
-            case Lights::Kind::distant:
-                return tables_.distant_irradiance[l.light][phase];
-            case Lights::Kind::area:
-                break;
-        }
-        return tables_.area_radiance[l.light][phase];
-    }
-
-    // Whether the light sample reaches the surface on the side that it is wanted on.
-    bool visible(const Hit& hit, const Lights::Sample& l, PathStatistics* statistics) const {
-        if (!(glm::dot(l.d, hit.ng) > 0)) return false;
-        ++statistics->rays;
-        const glm::vec3 from = leave(hit, l.d);
-        if (std::isinf(l.distance)) return !geometry_.occluded(from, l.d, l.distance);
-        const glm::vec3 to = l.target - from;
-        const float distance = glm::length(to);
-        return distance > 0 && !geometry_.occluded(from, to / distance, distance);
-    }
-
-    template <class ToWorld, class Add>
-    void add_light_over_lobe(const Throughput<transport, N>& throughput,
-                             const ConductorTables<N>& metal, const Lights::Sample& l,
-                             const Hit& hit, const glm::vec3& wo, const glm::vec3& x,
-                             const ToWorld& to_world, const glm::vec3& o_local,
-                             const glm::vec3& i_local, int phase, int depth,
-                             PathStatistics* statistics, const Add& add) const {
-        const auto e = metal.microfacets.evaluate(o_local, i_local);
-        if (!(e.value > 0) || !visible(hit, l, statistics)) return;
-        const auto r = metal.reflection(std::min(1.0f, glm::dot(i_local, e.m)), phase);
-        const Packet<N> light = radiance_of(l, phase);
-        const float weight = l.is_delta ? 1 : mis(l.pdf, e.pdf);
-        const glm::vec3 s = s_axis(-l.d, to_world(e.m));
-        add(throughput.reflect_unpolarised(rotation_between(wo, x, s, h_), r.A() * light,
-                                           r.B() * light),
-            weight * e.value / l.pdf, depth);
-    }
-
+    const PathSetup<transport, N>& setup_;
     const Scene& scene_;
-    const Geometry& geometry_;
     const Lights& lights_;
     const SpectralTables<N>& tables_;
+    const bool polarised_;  // some light is
     const float h_;
+    const int phase_;
+    Sampler& sampler_;
+    PathStatistics& statistics_;
+
+    Contribution<transport, N> radiance_;
+    Beam<transport, N> beam_;
+    glm::vec3 o_{0}, d_{0};
+    glm::vec3 from_{0};  // the last vertex, from which light sampling competes
+    // The density with which the lobe chose d; 0 where no light sample competes with it.
+    float lobe_pdf_ = 0;
+    float radiance_scale_ = 1;  // index squared where the path is, over that at the camera
+    int hero_ = -1;             // the lane that decides directions, once there was dispersion
+    bool parted_ = false;       // only the hero is left
+    // Crossed elements leave of the product what rounding leaves: a contribution is judged against
+    // at least this.
+    float cancelled_ = 0;
+    int depth_ = 0, passed_ = 0;
 };
 
 }  // namespace drude
+
+#include "render/coat_walk.h"

@@ -9,6 +9,7 @@
 #include "base/executor.h"
 #include "materials/surface.h"
 #include "materials/torrance_sparrow.h"
+#include "render/reference_camera.h"
 #include "render/reference_geometry.h"
 #include "render/reference_light.h"
 
@@ -41,7 +42,11 @@ class Random {
 class ReferenceTracer {
   public:
     ReferenceTracer(const Scene& scene, const ReferenceOptions& options)
-        : scene_(scene), options_(options), geometry_(scene) {
+        : scene_(scene),
+          options_(options),
+          geometry_(scene),
+          camera_(scene),
+          handedness_(camera_.handedness()) {
         for (const InfiniteLight& light : scene.infinite_lights) skies_.emplace_back(light);
         for (const SurfaceMaterial& material : scene.materials) {
             lobes_.emplace_back();
@@ -52,30 +57,24 @@ class ReferenceTracer {
                                 ? Microfacets<double>::from_alpha(metal->alpha, s.masking)
                                 : Microfacets<double>(s.lobe, s.masking, s.beta);
         }
-        const glm::dmat3 axes(scene.camera.world_from_camera);
-        handedness_ = glm::determinant(axes) > 0 ? -1 : 1;
     }
 
     // S0..S3 at each of `nm` for one camera ray through (x, y) in pixels.
     std::vector<Stokes<double>> trace(double x, double y, const std::vector<double>& nm,
                                       Random& random, uint64_t* rays) const {
-        const Camera& camera = scene_.camera;
-        const double* w = camera.screen_window;
-        const double tangent = std::tan(camera.fov_deg * pi / 360);
-        const Vec film((w[0] + (w[1] - w[0]) * x / scene_.film.width) * tangent,
-                       (w[3] - (w[3] - w[2]) * y / scene_.film.height) * tangent, 1);
-        const glm::dmat3 axes(camera.world_from_camera);
-        Vec d = glm::normalize(axes * film);
-        Vec o(camera.world_from_camera[3]);
+        const bool lens = camera_.has_lens();
+        const double u1 = lens ? random() : 0, u2 = lens ? random() : 0;
+        const ReferenceRay ray = camera_.ray(x, y, u1, u2);
+        Vec o = ray.o, d = ray.d;
         // The x axis of the frame on the ray that is being followed, which light travels along -d.
-        Vec frame = glm::cross(d, glm::normalize(axes[1]));
-        if (glm::length(frame) < 1e-6) frame = axes[0] - glm::dot(axes[0], d) * d;
-        frame = glm::normalize(frame);
+        Vec frame = ray.horizontal;
 
         std::vector<Stokes<double>> sum(nm.size(), Stokes<double>{{0, 0, 0, 0}});
         std::vector<Matrix> path(nm.size(), Matrix::identity());
-        const auto add = [&](size_t i, const Matrix& m, double radiance) {
-            for (int row = 0; row < 4; ++row) sum[i][row] += m.m[row][0] * radiance;
+        const auto add = [&](size_t i, const Matrix& m, double radiance,
+                             const Stokes<double>& stokes) {
+            const Stokes<double> seen = m * stokes;
+            for (int row = 0; row < 4; ++row) sum[i][row] += seen[row] * radiance;
         };
         int from = -1;
         for (int depth = 0;; ++depth) {
@@ -83,8 +82,9 @@ class ReferenceTracer {
             ++*rays;
             if (!geometry_.intersect(o, d, from, &hit)) {
                 for (const ReferenceSky& sky : skies_) {
+                    const Stokes<double> stokes = sky.stokes(d, frame, handedness_);
                     for (size_t i = 0; i < nm.size(); ++i) {
-                        add(i, path[i], sky.radiance(d, nm[i]));
+                        add(i, path[i], sky.radiance(d, nm[i]), stokes);
                     }
                 }
                 return sum;
@@ -93,8 +93,11 @@ class ReferenceTracer {
             if (shape.area_light >= 0) {
                 const AreaLight& light = scene_.area_lights[shape.area_light];
                 if (light.two_sided || glm::dot(hit.ng, d) < 0) {
+                    const Stokes<double> stokes =
+                        emitted_stokes(light.polarisation, Vec(shape.world_from_object[0]), -d,
+                                       frame, handedness_);
                     for (size_t i = 0; i < nm.size(); ++i) {
-                        add(i, path[i], spectrum_at(light.radiance, nm[i]));
+                        add(i, path[i], spectrum_at(light.radiance, nm[i]), stokes);
                     }
                 }
             }
@@ -103,18 +106,38 @@ class ReferenceTracer {
             if (glm::dot(hit.ng, out) < 0) hit.ng = -hit.ng, hit.ns = -hit.ns;
             if (glm::dot(hit.ns, out) <= 0) hit.ns = hit.ng;
 
-            for (const DistantLight& light : scene_.distant_lights) {
-                const Vec in = -light.direction;
-                if (!(glm::dot(in, hit.ng) > 0) || is_mirror(shape.material)) continue;
+            // Light without size: `irradiance` across the ray, at the wavelength of its argument,
+            // from the direction `in`, which is free where nothing stands within `distance`.
+            const auto add_delta = [&](const Vec& in, double distance, const Vec& zero,
+                                       const LightPolarisation& polarisation,
+                                       const auto& irradiance) {
+                if (!(glm::dot(in, hit.ng) > 0) || is_mirror(shape.material)) return;
                 ReferenceHit blocker;
                 ++*rays;
-                if (geometry_.intersect(hit.p, in, hit.primitive, &blocker)) continue;
+                if (geometry_.intersect(hit.p, in, hit.primitive, &blocker) &&
+                    blocker.t < distance) {
+                    return;
+                }
                 const Vec in_frame = any_perpendicular(in);
+                const Stokes<double> stokes =
+                    emitted_stokes(polarisation, zero, -in, in_frame, handedness_);
                 for (size_t i = 0; i < nm.size(); ++i) {
                     const Matrix m =
                         scatter(shape.material, nm[i], hit.ns, in, in_frame, out, frame);
-                    add(i, path[i] * m, spectrum_at(light.irradiance, nm[i]));
+                    add(i, path[i] * m, irradiance(nm[i]), stokes);
                 }
+            };
+            for (const DistantLight& light : scene_.distant_lights) {
+                add_delta(-light.direction, INFINITY, light.x_axis, light.polarisation,
+                          [&](double at_nm) { return spectrum_at(light.irradiance, at_nm); });
+            }
+            for (const PointLight& light : scene_.point_lights) {
+                const Vec to = light.position - hit.p;
+                const double distance = glm::length(to);
+                add_delta(to / distance, (1 - 1e-4) * distance, light.x_axis, light.polarisation,
+                          [&](double at_nm) {
+                              return intensity_towards(light, hit.p, at_nm) / (distance * distance);
+                          });
             }
 
             Vec in, facet(0.0);
@@ -169,7 +192,8 @@ class ReferenceTracer {
                    const Vec& out, const Vec& out_frame) const {
         const double cosine = glm::dot(in, n);
         if (const auto* diffuse = std::get_if<DiffuseMaterial>(&scene_.materials[material])) {
-            const double r = cosine > 0 ? spectrum_at(diffuse->reflectance.constant, nm) * cosine / pi : 0;
+            const double r =
+                cosine > 0 ? spectrum_at(diffuse->reflectance.constant, nm) * cosine / pi : 0;
             return Matrix::diagonal(r, 0, 0, 0);
         }
         const auto e = lobes_[material].evaluate(to_local(n, out), to_local(n, in));
@@ -220,6 +244,7 @@ class ReferenceTracer {
     const Scene& scene_;
     const ReferenceOptions& options_;
     ReferenceGeometry geometry_;
+    ReferenceCamera camera_;
     std::vector<ReferenceSky> skies_;
     std::vector<Microfacets<double>> lobes_;  // by material
     double handedness_;

@@ -12,11 +12,12 @@
 //              transformation, mirroring ones and reversed orientation included;
 //   materials  diffuse, and conductors: bare, under films, or of a fixed reflectance, rough or not;
 //   lights     area lights (one- or two-sided), infinite lights (constant, lat-long, equal-area),
-//              and distant lights. A distant light has no size to walk into: wherever a path meets
-//              a surface that is not a mirror, its term E(lambda) * M(o <- i) cos_i * visibility is
-//              added in closed form. A mirror never shows one;
+//              distant and point lights and spots. The last three have no size to walk into:
+//              wherever a path meets a surface that is not a mirror, their term
+//              M(o <- i) E(lambda) cos_i * visibility is added in closed form. A mirror never shows
+//              one. All of them may be polarised;
+//   cameras    all, with a lens;
 //   the film   box filters. Others are refused.
-// Emission is unpolarised, as everywhere in the project.
 #pragma once
 
 #include <array>

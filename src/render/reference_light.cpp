@@ -36,6 +36,44 @@ glm::dvec2 equal_area(const glm::dvec3& d) {
 
 }  // namespace
 
+// Angles are measured in the frame's own plane, from x towards y = h cross(k, x), which the
+// conventions make counter-clockwise for who looks towards the source.
+Stokes<double> emitted_stokes(const LightPolarisation& light, const glm::dvec3& zero,
+                              const glm::dvec3& k, const glm::dvec3& frame, double handedness) {
+    const glm::dvec3 y = handedness * glm::cross(k, frame);
+    const double angle =
+        std::atan2(glm::dot(zero, y), glm::dot(zero, frame)) + light.aolp_deg * degree;
+    return {{1, light.dop * std::cos(2 * angle), light.dop * std::sin(2 * angle), 0}};
+}
+
+double intensity_towards(const PointLight& light, const glm::dvec3& at, double nm) {
+    const double cosine = glm::dot(light.axis, glm::normalize(at - light.position));
+    double share = 1;
+    if (light.cos_start > -1) {
+        // From 0 at the end of the cone to 1 at the start of the falloff.
+        const double width = light.cos_start - light.cos_end;
+        const double t = width > 0 ? std::clamp((cosine - light.cos_end) / width, 0.0, 1.0)
+                                   : (cosine > light.cos_end ? 1.0 : 0.0);
+        share = 3 * t * t - 2 * t * t * t;
+    }
+    return share * spectrum_at(light.intensity, nm);
+}
+
+Stokes<double> ReferenceSky::stokes(const glm::dvec3& d, const glm::dvec3& frame,
+                                    double handedness) const {
+    if (!light_.rayleigh) {
+        const glm::dvec3 z(light_.world_from_light[2]);
+        return emitted_stokes(light_.polarisation, glm::cross(d, z), -d, frame, handedness);
+    }
+    // Waves swing across the plane of the ray and the sun: a turn of 90 degrees from the sun's own
+    // direction in the picture plane.
+    const glm::dvec3 sun =
+        glm::normalize(glm::dmat3(light_.world_from_light) * light_.rayleigh->sun);
+    const double c = glm::dot(d, sun);
+    const double dop = light_.rayleigh->maximum * (1 - c * c) / (1 + c * c);
+    return emitted_stokes({dop, 90}, sun, -d, frame, handedness);
+}
+
 ReferenceSky::ReferenceSky(const InfiniteLight& light)
     : light_(light), light_from_world_(glm::inverse(glm::dmat3(light.world_from_light))) {
     if (!light.image.empty()) image_ = light.picture ? *light.picture : read_image(light.image);

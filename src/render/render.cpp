@@ -114,8 +114,8 @@ void check_options(const RenderOptions& options) {
         user_error("{} samples per pixel; expected at least 1", *options.samples_per_pixel);
     }
     const int n = options.wavelengths;
-    if (n != 0 && n != 8 && n != 16 && n != spectral_bins) {
-        user_error("{} wavelengths a path; expected 8, 16 or {}", n, spectral_bins);
+    if (n != 0 && n != 4 && n != 8 && n != 16 && n != spectral_bins) {
+        user_error("{} wavelengths a path; expected 4, 8, 16 or {}", n, spectral_bins);
     }
     if (options.spectral && n != 0 && n != spectral_bins) {
         user_error("spectral layers need all {} wavelengths a path, not {}", spectral_bins, n);
@@ -150,6 +150,7 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
     const int batches = (wanted + result.batch_size - 1) / result.batch_size;
 
     const Geometry geometry(scene, options.isa);
+    const OpticalElements elements(scene, options.isa);
     const Lights lights(scene, geometry);
     result.warnings.insert(result.warnings.end(), lights.warnings().begin(),
                            lights.warnings().end());
@@ -157,7 +158,7 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
     const CameraRays camera(scene.camera, scene.film.width, scene.film.height);
     const PixelFilter filter(scene.filter);
     const auto tracer = make_batch_tracer(result.transport, result.wavelengths,
-                                          {scene, geometry, lights, camera, filter,
+                                          {scene, geometry, lights, elements, camera, filter,
                                            options.seed.value_or(scene.seed), scene.max_depth});
 
     const int width = scene.film.width, height = scene.film.height;

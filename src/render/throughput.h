@@ -39,6 +39,14 @@ class Throughput {
         }
     }
 
+    // What stands between the camera and all it sees, in the frame of the pixel: an analyser.
+    // Scalar keeps its corner.
+    explicit Throughput(const Mueller<float>& first) {
+        for (int i = 0; i < rows; ++i) {
+            for (int j = 0; j < columns; ++j) m_[i][j] = Packet<N>(first.m[i][j]);
+        }
+    }
+
     const Packet<N>& corner() const { return m_[0][0]; }
 
     void scale(float factor) {
@@ -47,8 +55,27 @@ class Throughput {
         }
     }
 
-    // A reflection whose s axis is turned by `out` from this frame's x axis, on the outgoing ray.
-    // Afterwards the columns belong to the incoming ray with x axis s.
+    void scale(const Packet<N>& factor) {
+        for (auto& row : m_) {
+            for (Packet<N>& element : row) element *= factor;
+        }
+    }
+
+    // An element that leaves the frame as it is. E is a float or a packet.
+    template <class E>
+    void apply(const Mueller<E>& element) {
+        for (auto& m : m_) {
+            Packet<N> product[columns];
+            for (int j = 0; j < columns; ++j) {
+                product[j] = m[0] * Packet<N>(element.m[0][j]);
+                for (int k = 1; k < columns; ++k) product[j] += m[k] * Packet<N>(element.m[k][j]);
+            }
+            for (int j = 0; j < columns; ++j) m[j] = product[j];
+        }
+    }
+
+    // A reflection or a refraction whose s axis is turned by `out` from this frame's x axis, on the
+    // outgoing ray. Afterwards the columns belong to the incoming ray with x axis s.
     void reflect(const Rotation<float>& out, const Reflection<Packet<N>>& r, float factor) {
         const Packet<N> f(factor);
         const Packet<N> A = f * r.A();
@@ -93,6 +120,22 @@ class Throughput {
         }
     }
 
+    // Light of this radiance and degree of linear polarisation, along an axis that is turned by
+    // `axis` from the columns' x axis.
+    Contribution<transport, N> polarised(const Packet<N>& radiance, const Rotation<float>& axis,
+                                         float dop) const {
+        Contribution<transport, N> result;
+        for (int i = 0; i < rows; ++i) {
+            Packet<N> seen = m_[i][0];
+            if constexpr (transport != Transport::scalar) {
+                seen += Packet<N>(dop) *
+                        (Packet<N>(axis.cos2) * m_[i][1] + Packet<N>(axis.sin2) * m_[i][2]);
+            }
+            result.s[i] = seen * radiance;
+        }
+        return result;
+    }
+
     // Unpolarised light of this radiance.
     Contribution<transport, N> unpolarised(const Packet<N>& radiance) const {
         Contribution<transport, N> result;
@@ -105,14 +148,15 @@ class Throughput {
 };
 
 // Projects a contribution on the cone of physical Stokes vectors, S0 >= |S1..3|, from which only
-// rounding can take it. Returns the largest excess |S1..3| / S0 - 1 that was removed.
+// rounding can take it. Returns the largest excess |S1..3| - S0 that was removed, over S0 or, where
+// that is more, `least`.
 template <Transport transport, int N>
-float project_on_cone(Contribution<transport, N>* c) {
+float project_on_cone(Contribution<transport, N>* c, float least = 0) {
     if constexpr (transport == Transport::stokes) {
         const Packet<N> polarised = sqrt(c->s[1] * c->s[1] + c->s[2] * c->s[2] + c->s[3] * c->s[3]);
-        const Packet<N> before = max(c->s[0], Packet<N>(1e-30f));
+        const Packet<N> excess = (polarised - c->s[0]) / max(c->s[0], Packet<N>(least + 1e-30f));
         c->s[0] = max(c->s[0], polarised);
-        return max_lane(polarised / before) - 1;
+        return max_lane(excess);
     } else {
         c->s[0] = max(c->s[0], Packet<N>(0.0f));
         return 0;

@@ -43,9 +43,30 @@ double area_of(const Sphere& sphere, const glm::dmat4& world_from_object) {
     return sum / (steps_z * steps_phi) * sphere.radius * (sphere.z_max - sphere.z_min) * phi_max;
 }
 
+double area_of(const Disk& disk, const glm::dmat4& world_from_object) {
+    const double phi_max = disk.phi_max_deg * std::numbers::pi / 180;
+    const double own =
+        (disk.radius - disk.inner_radius) * (disk.radius + disk.inner_radius) * phi_max / 2;
+    return own * glm::length(glm::cross(glm::dvec3(world_from_object[0]),
+                                        glm::dvec3(world_from_object[1])));
+}
+
+double area_of(const Cylinder& cylinder, const glm::dmat4& world_from_object) {
+    constexpr int steps = 4096;
+    const double phi_max = cylinder.phi_max_deg * std::numbers::pi / 180;
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+        const double phi = phi_max * (i + 0.5) / steps;
+        const glm::dvec3 around(-std::sin(phi), std::cos(phi), 0);
+        sum += glm::length(glm::cross(transform_vector(world_from_object, around),
+                                      glm::dvec3(world_from_object[2])));
+    }
+    return sum / steps * cylinder.radius * (cylinder.z_max - cylinder.z_min) * phi_max;
+}
+
 }  // namespace
 
-double surface_area(const Geometry& geometry, const glm::dmat4& world_from_object) {
+double surface_area(const ShapeGeometry& geometry, const glm::dmat4& world_from_object) {
     return std::visit([&](const auto& shape) { return area_of(shape, world_from_object); },
                       geometry);
 }

@@ -34,8 +34,13 @@ struct BuildContext {
 
 // ---- settings ----------------------------------------------------------------------------------
 
-Film build_film(const std::string& name, ParameterList& list, Messages& messages);
-// `camera_from_world` is the current transformation at the Camera directive.
+// The film as a whole, and the pixels of it that are rendered: x0 <= x < x1, y0 <= y < y1.
+struct FilmRecipe {
+    Film film;
+    int bounds[4];  // x0 x1 y0 y1
+};
+FilmRecipe build_film(const std::string& name, ParameterList& list, Messages& messages);
+// `camera_from_world` is the current transformation at the Camera directive, `film` the whole one.
 Camera build_camera(const std::string& name, ParameterList& list,
                     const glm::dmat4& camera_from_world, const Film& film, Messages& messages);
 Filter build_filter(const std::string& name, ParameterList& list, Messages& messages);
@@ -45,14 +50,12 @@ void build_integrator(const std::string& name, ParameterList& list, Messages& me
 
 // ---- shapes ------------------------------------------------------------------------------------
 
-using Geometry = std::variant<Sphere, TriangleMesh>;
-
 // Nothing where the shape is one that pbrt-v4 knows and this renderer leaves out.
-std::optional<Geometry> build_shape(const std::string& name, ParameterList& list,
-                                    BuildContext& context);
+std::optional<ShapeGeometry> build_shape(const std::string& name, ParameterList& list,
+                                         BuildContext& context);
 Sphere build_sphere(ParameterList& list);
-TriangleMesh build_disk(ParameterList& list, Messages& messages);
-TriangleMesh build_cylinder(ParameterList& list, Messages& messages);
+Disk build_disk(ParameterList& list);
+Cylinder build_cylinder(ParameterList& list);
 TriangleMesh build_triangle_mesh(ParameterList& list, Messages& messages);
 TriangleMesh build_bilinear_mesh(ParameterList& list, Messages& messages);
 TriangleMesh build_ply_mesh(ParameterList& list, BuildContext& context);
@@ -61,7 +64,7 @@ TriangleMesh build_ply_mesh(ParameterList& list, BuildContext& context);
 void tidy_mesh(TriangleMesh& mesh, const std::string& owner, const Place& place,
                Messages& messages);
 // In world space.
-double surface_area(const Geometry& geometry, const glm::dmat4& world_from_object);
+double surface_area(const ShapeGeometry& geometry, const glm::dmat4& world_from_object);
 
 // ---- materials, textures -----------------------------------------------------------------------
 
@@ -81,6 +84,10 @@ void build_texture(const std::string& name, bool is_spectrum, const std::string&
 // Appends to the scene's lights.
 void build_light(const std::string& name, ParameterList& list, const glm::dmat4& world_from_light,
                  BuildContext& context, Scene& scene);
+
+// How polarised a light is, uniformly; and an infinite light, in a pattern or uniformly.
+LightPolarisation read_light_polarisation(ParameterList& list);
+void read_sky_polarisation(ParameterList& list, InfiniteLight* light);
 
 // What an AreaLightSource says before it meets its shape.
 struct AreaLightRecipe {

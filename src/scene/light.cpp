@@ -9,6 +9,9 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
+#include "base/numbers.h"
+#include "image/equal_area.h"
+#include "image/image.h"
 #include "scene/builders.h"
 #include "scene/spectra.h"
 #include "scene/transforms.h"
@@ -30,6 +33,18 @@ double target(ParameterList& list, const std::string& name) {
     return list.number_in(name, -1, -brightest, brightest);
 }
 
+// The direction from one point to another, in the world.
+glm::dvec3 axis_of(const ParameterList& list, const glm::dvec3& from, const glm::dvec3& to,
+                   const glm::dmat4& world_from_light) {
+    const double distance = glm::length(to - from);
+    if (!(distance > 0) || !std::isfinite(distance)) {
+        user_error_at(list.place(),
+                      "{}: 'from' and 'to' give no direction; expected two different points",
+                      list.owner());
+    }
+    return glm::normalize(transform_vector(world_from_light, (to - from) / distance));
+}
+
 void build_distant(ParameterList& list, const glm::dmat4& world_from_light, BuildContext& context,
                    Scene& scene) {
     DistantLight light;
@@ -38,15 +53,121 @@ void build_distant(ParameterList& list, const glm::dmat4& world_from_light, Buil
     const double illuminance = target(list, "illuminance");
     if (illuminance > 0) scale *= illuminance;
     light.irradiance = times(light_spectrum(list, "L", context), scale);
-    const glm::dvec3 from = list.point3("from", {0, 0, 0}), to = list.point3("to", {0, 0, 1});
-    const double distance = glm::length(to - from);
-    if (!(distance > 0) || !std::isfinite(distance)) {
-        user_error_at(list.place(),
-                      "LightSource \"distant\": 'from' and 'to' give no direction; "
-                      "expected two different points");
-    }
-    light.direction = glm::normalize(transform_vector(world_from_light, (to - from) / distance));
+    light.direction = axis_of(list, list.point3("from", {0, 0, 0}), list.point3("to", {0, 0, 1}),
+                              world_from_light);
+    light.x_axis = glm::normalize(glm::dvec3(world_from_light[0]));
+    light.polarisation = read_light_polarisation(list);
     scene.distant_lights.push_back(std::move(light));
+}
+
+// Whether a transformation keeps angles.
+bool is_similarity(const glm::dmat4& matrix) {
+    const glm::dmat3 axes(matrix);
+    const double size = glm::dot(axes[0], axes[0]);
+    for (int i = 0; i < 3; ++i) {
+        if (std::abs(glm::dot(axes[i], axes[i]) - size) > 1e-6 * size) return false;
+        if (std::abs(glm::dot(axes[i], axes[(i + 1) % 3])) > 1e-6 * size) return false;
+    }
+    return true;
+}
+
+// The integral of a spot's falloff over all directions, in steradians (its smooth step is 1/2 on
+// average over the cosine); of a point light 4 pi.
+double cone(const PointLight& light) {
+    return 2 * std::numbers::pi * (1 - light.cos_start + (light.cos_start - light.cos_end) / 2);
+}
+
+void build_point(const std::string& name, ParameterList& list, const glm::dmat4& world_from_light,
+                 BuildContext& context, Scene& scene) {
+    PointLight light;
+    light.place = list.place();
+    const glm::dvec3 from = list.point3("from", {0, 0, 0});
+    light.position = transform_point(world_from_light, from);
+    light.x_axis = glm::normalize(glm::dvec3(world_from_light[0]));
+    if (name == "spot") {
+        light.axis = axis_of(list, from, list.point3("to", {0, 0, 1}), world_from_light);
+        const double end = list.number_in("coneangle", 30, 1e-3, 180);
+        // pbrt takes a falloff wider than the cone for one that never ends within.
+        const double start = std::max(0.0, end - list.number_in("conedeltaangle", 5, 0, 180));
+        light.cos_end = std::cos(end * degree);
+        light.cos_start = std::cos(start * degree);
+        if (!is_similarity(world_from_light)) {
+            context.messages.stand_in(
+                list.place(),
+                "LightSource \"spot\": a cone that a transformation stretches "
+                "is not modelled; a round cone stands in");
+        }
+    }
+    double scale = list.number_in("scale", 1, 0, brightest);
+    if (const double power = target(list, "power"); power > 0) scale *= power / cone(light);
+    light.intensity = times(light_spectrum(list, "I", context), scale);
+    light.polarisation = read_light_polarisation(list);
+    scene.point_lights.push_back(std::move(light));
+}
+
+// Of a picture, in units of its own: what a patch receives that faces the light's +z, the Y of its
+// linear sRGB. Texels are constant over their part of the sphere.
+double upper_illuminance(const Image& image, const std::string& where) {
+    const Channel* grey = image.find("Y");
+    const Channel* rgb[3];
+    for (int c = 0; c < 3; ++c) {
+        const std::string channel(1, "RGB"[c]);
+        rgb[c] = grey && !image.find(channel) ? grey : &image.at(channel, where);
+    }
+    const auto luminance = [&](size_t texel) {
+        RGB value;
+        for (size_t c = 0; c < 3; ++c) {
+            const double v = static_cast<double>(rgb[c]->data[texel]);
+            value[c] = v >= 0 && std::isfinite(v) ? v : 0;
+        }
+        return rgb_to_xyz(value)[1];
+    };
+    double sum = 0;
+    const bool lat_long = image.width == 2 * image.height;
+    // Within a texel of the square the cosine is summed over a grid of points.
+    const int grid = lat_long ? 1 : std::max(1, 256 / image.width);
+    for (int y = 0; y < image.height; ++y) {
+        // The integral of the cosine over the row: sin^2 of its ends, of what is above the horizon.
+        const double top = std::min(0.5, static_cast<double>(y) / image.height) * std::numbers::pi;
+        const double bottom =
+            std::min(0.5, static_cast<double>(y + 1) / image.height) * std::numbers::pi;
+        const double row =
+            std::numbers::pi / image.width * std::sin(bottom - top) * std::sin(bottom + top);
+        for (int x = 0; x < image.width; ++x) {
+            double weight = row;
+            if (!lat_long) {
+                weight = 0;
+                for (int i = 0; i < grid * grid; ++i) {
+                    const glm::dvec2 p((x + (i % grid + 0.5) / grid) / image.width,
+                                       (y + (i / grid + 0.5) / grid) / image.height);
+                    weight += std::max(0.0, equal_area_direction(p).z);
+                }
+                weight *=
+                    4 * std::numbers::pi / (static_cast<double>(image.pixels()) * grid * grid);
+            }
+            if (weight > 0) sum += weight * luminance(static_cast<size_t>(y) * image.width + x);
+        }
+    }
+    return sum;
+}
+
+// The picture is read for that, and kept.
+void scale_picture(InfiniteLight* light, double illuminance, const Place& place,
+                   BuildContext& context) {
+    light->picture = std::make_shared<const Image>(read_image(light->image));
+    const double own = upper_illuminance(*light->picture, light->image);
+    if (!(own > 0) || !std::isfinite(own)) {
+        user_error_at(place,
+                      "LightSource \"infinite\": the upper half of {} gives an illuminance of {}, "
+                      "which nothing brings to {}; expected a picture with light above",
+                      light->image, format_double(own), format_double(illuminance));
+    }
+    light->scale *= illuminance / own;
+    context.messages.note(place,
+                          fmt::format("LightSource \"infinite\": the picture is scaled so that an "
+                                      "upward patch receives an illuminance of {}; pbrt-v4 takes "
+                                      "half the solid angle and makes it twice as bright",
+                                      format_double(illuminance)));
 }
 
 void build_infinite(ParameterList& list, const glm::dmat4& world_from_light, BuildContext& context,
@@ -68,9 +189,7 @@ void build_infinite(ParameterList& list, const glm::dmat4& world_from_light, Bui
         context.assets.count(light.image, place);
         light.radiance = constant_spectrum(0);
         if (illuminance > 0) {
-            context.messages.stand_in(list.place_of("illuminance"),
-                                      "LightSource \"infinite\": the illuminance of an image is "
-                                      "not modelled; its scale stands as it is");
+            scale_picture(&light, illuminance, list.place_of("illuminance"), context);
         }
     } else {
         // Constant radiance L gives the patch pi L.
@@ -78,6 +197,12 @@ void build_infinite(ParameterList& list, const glm::dmat4& world_from_light, Bui
         light.radiance = times(light_spectrum(list, "L", context), light.scale);
         light.scale = 1;
     }
+    if (const Parameter* portal = list.values("portal", ParameterType::point3)) {
+        context.messages.stand_in(portal->place,
+                                  "LightSource \"infinite\": a portal is not modelled; light comes "
+                                  "from everywhere, not through the portal alone");
+    }
+    read_sky_polarisation(list, &light);
     scene.infinite_lights.push_back(std::move(light));
 }
 
@@ -91,6 +216,8 @@ void build_light(const std::string& name, ParameterList& list, const glm::dmat4&
         build_distant(list, world_from_light, context, scene);
     } else if (name == "infinite") {
         build_infinite(list, world_from_light, context, scene);
+    } else if (name == "point" || name == "spot") {
+        build_point(name, list, world_from_light, context, scene);
     } else {
         context.messages.stand_in(
             list.place(), fmt::format("LightSource \"{}\" is not modelled; it is left out", name));
@@ -108,6 +235,7 @@ AreaLightRecipe build_area_light(const std::string& name, ParameterList& list,
     recipe.light.radiance =
         times(light_spectrum(list, "L", context), list.number_in("scale", 1, 0, brightest));
     recipe.power = target(list, "power");
+    recipe.light.polarisation = read_light_polarisation(list);
     if (list.has("filename")) {
         list.text("filename", "");
         context.messages.stand_in(list.place_of("filename"),

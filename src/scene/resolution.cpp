@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "scene/crop.h"
+
 namespace drude {
 
 void set_resolution(const std::string& text, const std::string& what, Scene* scene) {
@@ -13,6 +15,19 @@ void set_resolution(const std::string& text, const std::string& what, Scene* sce
     if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 ||
         height < 1 || width > 65536 || height > 65536) {
         user_error("{} '{}': expected WIDTHxHEIGHT, e.g. 512x512", what, text);
+    }
+    // Of a picture that is cropped the size is the whole one's, and the part stays the same part.
+    int bounds[4] = {0, width, 0, height};
+    if (film->crop) {
+        const Film::Crop& crop = *film->crop;
+        const auto scaled = [](int at, int whole, int size) {
+            return static_cast<int>((static_cast<int64_t>(at) * size + whole - 1) / whole);
+        };
+        bounds[0] = std::min(scaled(crop.x0, crop.whole_width, width), width - 1);
+        bounds[1] = scaled(crop.x0 + film->width, crop.whole_width, width);
+        bounds[2] = std::min(scaled(crop.y0, crop.whole_height, height), height - 1);
+        bounds[3] = scaled(crop.y0 + film->height, crop.whole_height, height);
+        uncrop_picture(film, &scene->camera);
     }
     const auto default_window = [](int w, int h, double window[4]) {
         const double aspect = static_cast<double>(w) / h;
@@ -29,6 +44,8 @@ void set_resolution(const std::string& text, const std::string& what, Scene* sce
     if (is_default) default_window(width, height, window);
     film->width = width;
     film->height = height;
+    crop_picture(bounds[0], std::max(bounds[1], bounds[0] + 1), bounds[2],
+                 std::max(bounds[3], bounds[2] + 1), film, &scene->camera);
 }
 
 }  // namespace drude

@@ -16,19 +16,33 @@
 #include <vector>
 
 #include "base/error.h"
+#include "image/analyser.h"
 #include "materials/spectrum.h"
 #include "scene/surfaces.h"
 #include "scene/textures.h"
 
 namespace drude {
 
-struct Image;
-
 // ---- shapes ------------------------------------------------------------------------------------
 
 struct Sphere {
     double radius = 1;
     double z_min = -1, z_max = 1;  // object space, clamped to [-radius, radius]
+    double phi_max_deg = 360;
+};
+
+// A ring at z = height around the z axis, or a sector of it; its normal is +z.
+struct Disk {
+    double height = 0;
+    double radius = 1;
+    double inner_radius = 0;  // in [0, radius)
+    double phi_max_deg = 360;
+};
+
+// The side of a cylinder around the z axis, or a sector of it; its normal points outwards.
+struct Cylinder {
+    double radius = 1;
+    double z_min = -1, z_max = 1;  // z_min < z_max
     double phi_max_deg = 360;
 };
 
@@ -39,8 +53,10 @@ struct TriangleMesh {
     std::vector<glm::uvec3> triangles;  // indices of positions
 };
 
+using ShapeGeometry = std::variant<Sphere, Disk, Cylinder, TriangleMesh>;
+
 struct Shape {
-    std::variant<Sphere, TriangleMesh> geometry;
+    ShapeGeometry geometry;
     glm::dmat4 world_from_object{1};
     bool reverse_orientation = false;
     int material = -1;    // index of Scene::materials; -1: an invisible "interface"
@@ -72,7 +88,7 @@ struct RayleighPattern {
 struct InfiniteLight {
     glm::dmat4 world_from_light{1};
     std::string image;  // resolved path; empty: constant
-    // The picture itself, where it comes from the program and not from a file; `image` names it.
+    // The picture itself, where it comes from the program or was read already; `image` names it.
     std::shared_ptr<const Image> picture;
     DenseSpectrum radiance;  // of a constant light, scale included
     double scale = 1;        // of an image
@@ -82,7 +98,7 @@ struct InfiniteLight {
 };
 
 struct DistantLight {
-    DenseSpectrum irradiance;    // normal irradiance, scale included
+    DenseSpectrum irradiance{};  // normal irradiance, scale included
     glm::dvec3 direction;        // in which its light travels, world space, unit
     glm::dvec3 x_axis{1, 0, 0};  // the light's x axis in world space
     LightPolarisation polarisation;
@@ -117,17 +133,26 @@ struct Camera {
     glm::dmat4 world_from_camera{1};  // camera looks along +z, x right, y up
     double fov_deg = 90;              // of the shorter side of the picture
     // screen window as pbrt has it: x0, x1, y0, y1 on the plane z = 1 / tan(fov/2)
-    // (orthographic: in the camera's own units)
+    // (orthographic: in the camera's own units; spherical: 0 to 1 over the whole picture, y up).
+    // Where the film is cropped, it is the window of the part that is rendered.
     double screen_window[4] = {-1, 1, -1, 1};
     double lens_radius = 0, focal_distance = 1e6;  // a thin lens; radius 0 is a pinhole
     bool equal_area = true;                        // spherical: else equirectangular
+    std::optional<Analyser> analyser;              // a polarising filter before every pixel
 };
 
 struct Film {
-    int width = 1280, height = 720;
-    std::string filename;   // as the scene names it; empty where it does not
-    bool spectral = false;  // Film "spectral": wants the spectral layers
-    bool gbuffer = false;   // Film "gbuffer": wants geometry layers
+    int width = 1280, height = 720;  // of what is rendered
+    // Of a larger picture only a part may be rendered: see scene/crop.h.
+    struct Crop {
+        int whole_width = 0, whole_height = 0;
+        int x0 = 0, y0 = 0;  // of the part's upper left pixel in the whole picture
+    };
+    std::optional<Crop> crop;
+    std::string filename;           // as the scene names it; empty where it does not
+    bool spectral = false;          // Film "spectral": wants the spectral layers
+    bool gbuffer = false;           // Film "gbuffer": wants geometry layers
+    bool gbuffer_in_world = false;  // its positions and normals: else in camera space
 };
 
 enum class FilterKind { box, gaussian, triangle, mitchell };

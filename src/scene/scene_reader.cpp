@@ -4,6 +4,7 @@
 #include <glm/matrix.hpp>
 
 #include "base/numbers.h"
+#include "scene/crop.h"
 #include "scene/transforms.h"
 #include "scene/vocabulary.h"
 
@@ -218,11 +219,18 @@ void SceneReader::read_settings(const Place& place) {
         const auto found = settings_.find(directive);
         return found == settings_.end() ? nullptr : &found->second;
     };
-    if (Setting* film = find("Film")) scene_.film = build_film(film->name, film->list, messages_);
+    const Film& film = scene_.film;
+    FilmRecipe recipe{film, {0, film.width, 0, film.height}};
+    if (Setting* setting = find("Film")) {
+        recipe = build_film(setting->name, setting->list, messages_);
+        scene_.film = recipe.film;
+    }
     Setting plain{"perspective", ParameterList("Camera \"perspective\"", place, {}), glm::dmat4(1)};
     Setting* camera = find("Camera");
     if (camera == nullptr) camera = &plain;
-    scene_.camera = build_camera(camera->name, camera->list, camera->ctm, scene_.film, messages_);
+    scene_.camera = build_camera(camera->name, camera->list, camera->ctm, film, messages_);
+    const int* bounds = recipe.bounds;
+    crop_picture(bounds[0], bounds[1], bounds[2], bounds[3], &scene_.film, &scene_.camera);
     if (Setting* filter = find("PixelFilter")) {
         scene_.filter = build_filter(filter->name, filter->list, messages_);
     }

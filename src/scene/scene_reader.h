@@ -89,7 +89,7 @@ class SceneReader {
     void require_world(const Place& place, const std::string& directive) const;
     void add_defaults(ParameterList& list, std::string_view kind) const;
     int add_material(const std::string& name, ParameterList& list);
-    int area_light_of(const Geometry& geometry, const Place& place);
+    int area_light_of(const ShapeGeometry& geometry, const Place& place);
     size_t name_slot(const std::string& name, const Place& place);
     void resolve_materials();
     void resolve_materials(std::vector<Shape>& shapes);

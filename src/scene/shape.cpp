@@ -6,11 +6,11 @@ namespace drude {
 
 namespace {
 
-std::optional<Geometry> build_geometry(const std::string& name, ParameterList& list,
-                                       BuildContext& context) {
+std::optional<ShapeGeometry> build_geometry(const std::string& name, ParameterList& list,
+                                            BuildContext& context) {
     if (name == "sphere") return build_sphere(list);
-    if (name == "disk") return build_disk(list, context.messages);
-    if (name == "cylinder") return build_cylinder(list, context.messages);
+    if (name == "disk") return build_disk(list);
+    if (name == "cylinder") return build_cylinder(list);
     if (name == "trianglemesh") return build_triangle_mesh(list, context.messages);
     if (name == "bilinearmesh") return build_bilinear_mesh(list, context.messages);
     if (name == "plymesh") return build_ply_mesh(list, context);
@@ -19,10 +19,10 @@ std::optional<Geometry> build_geometry(const std::string& name, ParameterList& l
 
 }  // namespace
 
-std::optional<Geometry> build_shape(const std::string& name, ParameterList& list,
-                                    BuildContext& context) {
+std::optional<ShapeGeometry> build_shape(const std::string& name, ParameterList& list,
+                                         BuildContext& context) {
     const std::vector<std::string> known = known_parameters("Shape", name);
-    std::optional<Geometry> geometry = build_geometry(name, list, context);
+    std::optional<ShapeGeometry> geometry = build_geometry(name, list, context);
     if (!geometry) {
         context.messages.stand_in(
             list.place(), fmt::format("Shape \"{}\" is not modelled; it is left out", name));

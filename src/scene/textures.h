@@ -52,8 +52,9 @@ struct ImageTexture {
     bool bilinear = true;
     double scale = 1;
     bool invert = false;
-    Encoding encoding = Encoding::srgb;  // of 8-bit pictures
+    Encoding encoding = Encoding::srgb;  // of pictures whose samples are integers
     double gamma = 2.2;
+    Place place;  // of its "filename"
 };
 
 // Two values in squares of (s, t), or in cubes of texture space.
@@ -76,8 +77,24 @@ struct MixTexture {
     NumberValue amount;
 };
 
+// Bilinear between four corners: v01 at s = 0, t = 1.
+template <class Value>
+struct BilerpTexture {
+    TextureMapping mapping;
+    Value v00, v01, v10, v11;
+};
+
+// `first` where the geometric normal lies along `direction`, `second` where it is perpendicular to
+// it, weighted by the cosine between.
+template <class Value>
+struct DirectionMixTexture {
+    Value first, second;
+    glm::dvec3 direction{0, 1, 0};  // world, unit
+};
+
 template <class Value>
 using Texture = std::variant<ConstantTexture<Value>, ImageTexture, CheckerboardTexture<Value>,
-                             ScaleTexture<Value>, MixTexture<Value>>;
+                             ScaleTexture<Value>, MixTexture<Value>, BilerpTexture<Value>,
+                             DirectionMixTexture<Value>>;
 
 }  // namespace drude

@@ -9,9 +9,10 @@ namespace drude {
 namespace {
 
 // "kind name: parameters"; the name "*" gives parameters to everything of its kind. From pbrt-v4's
-// file format documentation and its Create() functions (June 2026).
+// file format documentation and its Create() functions (June 2026). Polarisation is this renderer's
+// own: analyser, retarder, retarderaxis of cameras; dop, aolp, polarisation, sun of lights.
 constexpr std::string_view words = R"(
-Camera *: shutteropen shutterclose
+Camera *: shutteropen shutterclose analyser retarder retarderaxis
 Camera perspective: frameaspectratio screenwindow lensradius focaldistance fov
 Camera orthographic: frameaspectratio screenwindow lensradius focaldistance
 Camera realistic: lensfile aperturediameter focusdistance aperture
@@ -88,13 +89,15 @@ Material hair: sigma_a reflectance color eumelanin pheomelanin eta beta_m beta_n
 Material measured: filename
 Material mix: materials amount
 Material interface:
+LightSource *: dop aolp
 LightSource point: I scale power from
 LightSource spot: I scale power from to coneangle conedeltaangle
 LightSource goniometric: I scale power filename
 LightSource projection: I scale power fov filename
 LightSource distant: L scale illuminance from to
 LightSource infinite: L scale illuminance filename portal
-AreaLightSource diffuse: L scale power twosided filename
+LightSource infinite: polarisation sun
+AreaLightSource diffuse: L scale power twosided filename dop aolp
 MakeNamedMedium *: type preset sigma_a sigma_s scale g Le Lescale
 MakeNamedMedium homogeneous:
 MakeNamedMedium uniformgrid: nx ny nz p0 p1 density temperature temperatureoffset

@@ -85,7 +85,7 @@ void SceneReader::note_dark_interface(const Place& place) {
     messages_.note(place, "a shape of material \"interface\" emits no light, as in pbrt-v4");
 }
 
-int SceneReader::area_light_of(const Geometry& geometry, const Place& place) {
+int SceneReader::area_light_of(const ShapeGeometry& geometry, const Place& place) {
     if (!state_.area_light) return -1;
     if (state_.material == -1) {
         note_dark_interface(place);
@@ -107,7 +107,7 @@ int SceneReader::area_light_of(const Geometry& geometry, const Place& place) {
 void SceneReader::shape(const std::string& name, ParameterList list) {
     require_world(list.place(), "Shape");
     add_defaults(list, "shape");
-    std::optional<Geometry> geometry = build_shape(name, list, context_);
+    std::optional<ShapeGeometry> geometry = build_shape(name, list, context_);
     if (!geometry) return;
     Shape shape;
     shape.area_light = area_light_of(*geometry, list.place());

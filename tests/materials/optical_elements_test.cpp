@@ -3,14 +3,13 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 
+#include "materials/field.h"
+#include "materials/numeric.h"
 #include "materials/optical_elements.h"
 
 namespace drude {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 Rotation<double> at(double degrees) {
     const double a = degrees * pi / 180;
@@ -58,27 +57,6 @@ TEST(Retarder, QuarterWavePlateTurnsLinearIntoCircularAndBack) {
     EXPECT_NEAR((analyser * Stokes<double>{{1, 0, 0, -1}})[0], 0, 1e-15);
 }
 
-using Field = std::complex<double>;
-
-// Stokes parameters from the real field E(t) = Re(E exp(-i omega t)) over one period, x to the
-// right and y up, seen looking towards the source. Its tip sweeps area counter-clockwise at the
-// rate (x dy/dt - y dx/dt)/2; S3 counts the opposite turn.
-Stokes<double> seen(Field x, Field y) {
-    constexpr int steps = 64;
-    Stokes<double> sum = {{0, 0, 0, 0}};
-    for (int i = 0; i < steps; ++i) {
-        const Field turn = std::polar(1.0, -2 * pi * i / steps);
-        const Field later = turn * Field(0, -1);  // d/d(omega t) of exp(-i omega t)
-        const double ex = (x * turn).real(), ey = (y * turn).real();
-        const double dx = (x * later).real(), dy = (y * later).real();
-        sum[0] += (ex * ex + ey * ey) * 2 / steps;
-        sum[1] += (ex * ex - ey * ey) * 2 / steps;
-        sum[2] += 4 * ex * ey / steps;
-        sum[3] -= (ex * dy - ey * dx) * 2 / steps;
-    }
-    return sum;
-}
-
 // The matrices against the field: a polariser keeps the component along its axis; a retarder holds
 // the slow one back. With exp(-i omega t) waiting is a factor exp(+i retardance).
 TEST(Retarder, MatricesMoveStokesVectorsAsTheElementsMoveTheField) {
@@ -106,6 +84,67 @@ TEST(Retarder, ElementsAreRealisable) {
     for (double degrees = 0; degrees < 180; degrees += 20) {
         EXPECT_GT(smallest_coherency_eigenvalue(linear_polariser(at(degrees))), -1e-14);
         EXPECT_GT(smallest_coherency_eigenvalue(linear_retarder(at(degrees), 1.0)), -1e-14);
+    }
+    EXPECT_GT(smallest_coherency_eigenvalue(circular_polariser<double>(true)), -1e-14);
+    EXPECT_GT(smallest_coherency_eigenvalue(circular_polariser<double>(false)), -1e-14);
+}
+
+// What a quarter-wave plate, a linear polariser and a second plate make of any light.
+TEST(CircularPolariser, IsALinearOneBetweenQuarterWavePlates) {
+    for (const bool right : {true, false}) {
+        const double turn = right ? 45 : -45;
+        const Mueller<double> sandwich = linear_retarder(at(turn), pi / 2) *
+                                         linear_polariser(at(0)) *
+                                         linear_retarder(at(-turn), pi / 2);
+        const Mueller<double> got = circular_polariser<double>(right);
+        for (int i = 0; i < 4; ++i) {
+            for (int j = 0; j < 4; ++j) EXPECT_NEAR(got.m[i][j], sandwich.m[i][j], 1e-15);
+        }
+        expect_stokes(got * Stokes<double>{{1, 0, 0, right ? 1.0 : -1.0}}, 1, 0, 0, right ? 1 : -1);
+        expect_stokes(got * Stokes<double>{{1, 0, 0, right ? -1.0 : 1.0}}, 0, 0, 0, 0);
+    }
+}
+
+TEST(ElementAxis, CountsFromTheProjectedAxisAsSeenFromTheFront) {
+    // A right-handed world, the viewer on +z: x to the right, y up, the source behind.
+    const Vec3<double> k(0, 0, 1), right(1, 0, 0), up(0, 1, 0), front(0, 0, 1);
+    const auto degrees_of = [](const Rotation<double>& r) {
+        return std::atan2(r.sin2, r.cos2) / 2 / degree;
+    };
+    EXPECT_NEAR(degrees_of(element_axis(k, right, right, front, 30 * degree, 1.0)), 30, 1e-12);
+    EXPECT_NEAR(degrees_of(element_axis(k, up, right, front, 30 * degree, 1.0)), -60, 1e-12);
+    // Length and the part along the ray do not matter.
+    EXPECT_NEAR(degrees_of(element_axis(k, right, Vec3<double>(0, 3, 9), front, 30 * degree, 1.0)),
+                -60, 1e-12);
+    // From behind, through the same element: k turned about the vertical, x to the right again.
+    EXPECT_NEAR(degrees_of(element_axis(-k, -right, right, front, 30 * degree, 1.0)), -30, 1e-12);
+    // Parallel to the ray there is no projection; the result is an axis all the same.
+    const auto any = element_axis(k, right, k, front, 0.0, 1.0);
+    EXPECT_NEAR(std::hypot(any.cos2, any.sin2), 1, 1e-12);
+}
+
+// Light going back through an element is changed by the reversed matrix, whatever its direction
+// and the handedness of the world.
+TEST(ElementAxis, ReversedLightMeetsTheSameElement) {
+    numeric::Uniform u(17);
+    for (int trial = 0; trial < 200; ++trial) {
+        const auto random = [&] {
+            return Vec3<double>(u.between(-1, 1), u.between(-1, 1), u.between(-1, 1));
+        };
+        const Vec3<double> k = glm::normalize(random());
+        const Vec3<double> x = any_perpendicular(k), zero = random(), front = random();
+        const double angle = u.between(-3, 3), h = trial % 2 ? 1 : -1;
+        const auto there = element_axis(k, x, zero, front, angle, h);
+        const auto back = element_axis(-k, x, zero, front, angle, h);
+        for (const bool retards : {false, true}) {
+            const auto matrix = [&](const Rotation<double>& axis) {
+                return retards ? linear_retarder(axis, 0.8) : linear_polariser(axis);
+            };
+            const Mueller<double> expected = reversed(matrix(there)), got = matrix(back);
+            for (int i = 0; i < 4; ++i) {
+                for (int j = 0; j < 4; ++j) EXPECT_NEAR(got.m[i][j], expected.m[i][j], 1e-12);
+            }
+        }
     }
 }
 

@@ -25,7 +25,7 @@ class PacketTest : public testing::Test {
     }
 };
 
-using Packets = testing::Types<Packet<8>, Packet<16>, Packet<40>>;
+using Packets = testing::Types<Packet<4>, Packet<8>, Packet<16>, Packet<40>>;
 TYPED_TEST_SUITE(PacketTest, Packets);
 
 TYPED_TEST(PacketTest, LoadsStoresAndSetsLanes) {
