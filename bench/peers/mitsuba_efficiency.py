@@ -1,7 +1,7 @@
 """1 / (time x mean squared error) of drude beside Mitsuba 3: a copper half-sphere under a picture.
 
     VENV/bin/python bench/peers/mitsuba_efficiency.py DRUDE ENVIRONMENT [--alpha A] [--rounds N]
-        [--size PIXELS] [--spp N] [--variant V]... [--keep FOLDER]
+        [--size PIXELS] [--spp N] [--variant V]... [--sampler S]
 
 ENVIRONMENT is a lat-long EXR; both programs get it in grey (its luminance), turned the same way. The
 half-sphere is one mesh of triangles with normals, n and k the tables of peer_scenes.py, the film box
@@ -96,7 +96,8 @@ class Mitsuba:
             np.array([[0, 0, 1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]]))
         light = {"type": "envmap", "filename": grey_picture, "to_world": to_world}
         description = mitsuba_scene(mi, make_scene(None), args.size, args.size, folder, "half",
-                                    environment_light=light)
+                                    environment_light=light,
+                                    samples=args.spp, sampler=args.sampler)
         if args.alpha > 0:
             bsdf = description["shape0"]["bsdf"]
             bsdf.update(type="roughconductor", distribution="ggx", alpha=args.alpha)
@@ -130,6 +131,7 @@ def main():
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--reference-passes", type=int, default=64, help="of --spp samples each")
     parser.add_argument("--variant", action="append")
+    parser.add_argument("--sampler", default="independent", help="of Mitsuba (its default)")
     args = parser.parse_args()
     variants = args.variant or ["llvm_ad_spectral_polarized", "scalar_spectral_polarized"]
 
@@ -176,7 +178,7 @@ def main():
             statistics.median((b[0] * b[i]) / (a[0] * a[i]) for a, b in zip(ours, theirs))
             for i in (1, 2)
         ]
-        print(f"| {variant} | {args.alpha} | {median(ours, 0):.2f} "
+        print(f"| {variant}, {args.sampler} | {args.alpha} | {median(ours, 0):.2f} "
               f"| {median(ours, 1):.2e}, {median(ours, 2):.2e} | {median(theirs, 0):.2f} "
               f"| {median(theirs, 1):.2e}, {median(theirs, 2):.2e} "
               f"| {gain[0]:.1f} | {gain[1]:.1f} |")

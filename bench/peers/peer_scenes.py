@@ -255,7 +255,7 @@ def mitsuba_spectrum(spectrum):
 
 
 def mitsuba_scene(mi, scene, width, height, folder, name, samples=1, environment_light=None,
-                  wavelength=None):
+                  wavelength=None, sampler="independent"):
     """A dictionary for mi.load_dict, Stokes integrator included.
 
     With `wavelength` the sensor responds to that one alone, give or take half a nanometre.
@@ -274,7 +274,7 @@ def mitsuba_scene(mi, scene, width, height, folder, name, samples=1, environment
             "to_world": mi.ScalarTransform4f().look_at(
                 origin=mirrored(origin), target=mirrored(target), up=mirrored(up)
             ),
-            "sampler": {"type": "independent", "sample_count": samples},
+            "sampler": {"type": sampler, "sample_count": samples},
             "film": {
                 "type": "hdrfilm",
                 "width": width,
