@@ -113,21 +113,6 @@ TEST(Conductor, ReflectanceStandsForAMetal) {
     for (const double value : metal.reflectance->constant) EXPECT_NEAR(value, 1, 1e-6);
 }
 
-TEST(Materials, OthersHaveStandIns) {
-    const Scene scene = world_of(
-        "Material \"dielectric\" \"float eta\" 1.5\nMaterial \"coateddiffuse\" \"rgb reflectance\" "
-        "[ .2 .2 .2 ]\nMaterial \"coatedconductor\" \"spectrum conductor.eta\" \"metal-Ag-eta\" "
-        "\"spectrum conductor.k\" \"metal-Ag-k\" \"float conductor.roughness\" 0.01");
-    EXPECT_EQ(scene.stand_ins.size(), 3u);
-    EXPECT_NEAR(std::get<DiffuseMaterial>(scene.materials.at(1)).reflectance.constant[100], 0.5,
-                1e-15);
-    EXPECT_NEAR(std::get<DiffuseMaterial>(scene.materials.at(2)).reflectance.constant[100], 0.2,
-                1e-6);
-    const auto metal = std::get<ConductorMaterial>(scene.materials.at(3));
-    EXPECT_EQ(metal.surface.substrate.name, published_set("Ag").name);
-    EXPECT_DOUBLE_EQ(metal.alpha, 0.1);
-}
-
 TEST(Textures, HaveOneValue) {
     const Scene scene = world_of(
         "Texture \"a\" \"spectrum\" \"constant\" \"rgb value\" [ .4 .4 .4 ]\n"
