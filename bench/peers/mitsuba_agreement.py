@@ -15,15 +15,15 @@ S_i of that wavelength times a number, which a picture of a light of radiance 1 
 that responds most is taken. Every spectrum is level across a bin. Thus nothing that has a sign or a
 frame is this script's own.
 
-The map between the two, derived before anything was rendered: the world is mirrored (peer_scenes.py),
-pictures are not, and no component changes its sign. Both count S1 from the picture's horizontal, S2
+The map between the two, derived before anything was rendered: the world is mirrored
+(peer_scenes.py), pictures are not, and no component changes its sign. Both count S1 from the picture's horizontal, S2
 from there towards up as seen in the picture, and S3 > 0 clockwise looking at the source; Mitsuba's
 n - ik with phases that advance is the conjugate of n + ik with phases that retard, and drude takes
 the conjugate of r_p / r_s.
 
 The test. Both programs render K pictures with seeds of their own. The mean over a tile (8 x 8) has
-a variance that is measured between those pictures, in either program; Welch's t, brought to a normal
-deviate (Wallace 1959), should have mean 0 and variance 1. Printed beside it: what the same figures
+a variance that is measured between those pictures, in either program; Welch's t, brought to a
+normal deviate (Wallace 1959), should have mean 0 and variance 1. Printed beside it: what the same figures
 are when a sign is turned or the picture mirrored, and the largest difference of the picture's mean
 that the comparison could have missed (|difference| + 2 standard errors, over the mean of S0).
 """
@@ -77,7 +77,8 @@ def light_scale(program, folder, spectrum, name):
     scene = {"camera": ((0, -1, 0), (0, 0, 0), (0, 0, 1), 40.0), "depth": 1,
              "environment": spectrum, "shapes": []}
     path = write_pbrt(scene, 8, 8, folder, name)
-    values = run_drude(program, path, 160, 1, os.path.join(folder, name + ".exr"))[:, 0].mean((1, 2))
+    layers = run_drude(program, path, 160, 1, os.path.join(folder, name + ".exr"))
+    values = layers[:, 0].mean((1, 2))
     wavelengths, table = spectrum
     factors = [v / np.interp(b + np.arange(10), wavelengths, table).mean()
                for v, b in zip(values, BINS)]
@@ -217,7 +218,8 @@ def compare(args, name, scene):
         + ", ".join(f"{b:.3f}" for b in bias_bounds(ours, theirs))
         + f" | {'agree' if agree else 'DIFFER'} |"
     )
-    spread = [float(np.abs(ours.mean(0)[:, s]).mean() / ours.mean(0)[:, 0].mean()) for s in range(4)]
+    mean = ours.mean(0)
+    spread = [float(np.abs(mean[:, s]).mean() / mean[:, 0].mean()) for s in range(4)]
     controls = {
         "S1 turned": theirs * np.array([1, -1, 1, 1])[:, None, None],
         "S2 turned": theirs * np.array([1, 1, -1, 1])[:, None, None],

@@ -3,9 +3,9 @@
     VENV/bin/python bench/peers/mitsuba_efficiency.py DRUDE ENVIRONMENT [--alpha A] [--rounds N]
         [--size PIXELS] [--spp N] [--variant V]... [--sampler S]
 
-ENVIRONMENT is a lat-long EXR; both programs get it in grey (its luminance), turned the same way. The
-half-sphere is one mesh of triangles with normals, n and k the tables of peer_scenes.py, the film box
-filtered S0..S3 in RGB (`--stokes` here, the integrator `stokes` there). --alpha 0 (the default) is a
+ENVIRONMENT is a lat-long EXR; both programs get it in grey (its luminance), turned the same way.
+The half-sphere is one mesh of triangles with normals, n and k the tables of peer_scenes.py, the
+film box filtered S0..S3 in RGB (`--stokes` here, the integrator `stokes` there). --alpha 0 (the default) is a
 mirror; any other is a Trowbridge-Reitz (GGX) alpha, with the two programs' own masking functions.
 
 Every round renders once with each program, one after the other, with its own seed. The error is that

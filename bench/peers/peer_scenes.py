@@ -13,9 +13,9 @@ import sys
 here = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(here, os.pardir, os.pardir, "scenes"))
 
-# What is compared are four wavelength bins of 10 nm. Every table is level across each of them, so that
-# it does not matter how either program spreads its wavelengths within a bin, and covers both films
-# (Mitsuba 360 to 830 nm, drude 380 to 780 nm), so that what either does outside a table never
+# What is compared are four wavelength bins of 10 nm. Every table is level across each of them, so
+# that it does not matter how either program spreads its wavelengths within a bin, and covers both
+# films (Mitsuba 360 to 830 nm, drude 380 to 780 nm), so that what either does outside a table never
 # matters. The numbers are made up: copper-like, steep at 580 nm.
 BINS = [450, 550, 600, 650]  # first wavelength of each
 
@@ -132,11 +132,15 @@ def make_scenes():
             {"mesh": quad((-1, 1, 0), (1, 1, 0), (1, 1, 2), (-1, 1, 2)), "material": STEEL},
             {"mesh": quad((-1, -1, 0), (-1, -1, 2), (1, -1, 2), (1, -1, 0)), "material": COPPER},
             {
-                "mesh": quad((-0.7, -0.6, 1.98), (-0.7, 0.7, 1.98), (0.5, 0.7, 1.98), (0.5, -0.6, 1.98)),
+                "mesh": quad(
+                    (-0.7, -0.6, 1.98), (-0.7, 0.7, 1.98), (0.5, 0.7, 1.98), (0.5, -0.6, 1.98)
+                ),
                 "light": WARM,
             },
             {
-                "mesh": quad((0.98, -0.4, 0.2), (0.98, -0.4, 1.2), (0.98, 0.5, 1.2), (0.98, 0.5, 0.2)),
+                "mesh": quad(
+                    (0.98, -0.4, 0.2), (0.98, -0.4, 1.2), (0.98, 0.5, 1.2), (0.98, 0.5, 0.2)
+                ),
                 "light": constant(1.0),
             },
             {"sphere": ((0.35, 0.35, 0.4), 0.4), "material": COPPER},
