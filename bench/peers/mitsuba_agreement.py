@@ -16,16 +16,17 @@ that responds most is taken. Every spectrum is level across a bin. Thus nothing 
 frame is this script's own.
 
 The map between the two, derived before anything was rendered: the world is mirrored
-(peer_scenes.py), pictures are not, and no component changes its sign. Both count S1 from the picture's horizontal, S2
-from there towards up as seen in the picture, and S3 > 0 clockwise looking at the source; Mitsuba's
-n - ik with phases that advance is the conjugate of n + ik with phases that retard, and drude takes
-the conjugate of r_p / r_s.
+(peer_scenes.py), pictures are not, and no component changes its sign. Both count S1 from the
+picture's horizontal, S2 from there towards up as seen in the picture, and S3 > 0 clockwise looking
+at the source; Mitsuba's n - ik with phases that advance is the conjugate of n + ik with phases that
+retard, and drude takes the conjugate of r_p / r_s.
 
 The test. Both programs render K pictures with seeds of their own. The mean over a tile (8 x 8) has
 a variance that is measured between those pictures, in either program; Welch's t, brought to a
-normal deviate (Wallace 1959), should have mean 0 and variance 1. Printed beside it: what the same figures
-are when a sign is turned or the picture mirrored, and the largest difference of the picture's mean
-that the comparison could have missed (|difference| + 2 standard errors, over the mean of S0).
+normal deviate (Wallace 1959), should have mean 0 and variance 1. Printed beside it: what the same
+figures are when a sign is turned or the picture mirrored, and the largest difference of the
+picture's mean that the comparison could have missed (|difference| + 2 standard errors, over the
+mean of S0).
 """
 
 import argparse

@@ -5,15 +5,16 @@
 
 ENVIRONMENT is a lat-long EXR; both programs get it in grey (its luminance), turned the same way.
 The half-sphere is one mesh of triangles with normals, n and k the tables of peer_scenes.py, the
-film box filtered S0..S3 in RGB (`--stokes` here, the integrator `stokes` there). --alpha 0 (the default) is a
-mirror; any other is a Trowbridge-Reitz (GGX) alpha, with the two programs' own masking functions.
+film box filtered S0..S3 in RGB (`--stokes` here, the integrator `stokes` there). --alpha 0 (the
+default) is a mirror; any other is a Trowbridge-Reitz (GGX) alpha, with the two programs' own
+masking functions.
 
-Every round renders once with each program, one after the other, with its own seed. The error is that
-of S0 (and of S1..S3 together) against the same program's own reference of many more samples, mean of
-squares over pixels and R, G, B, over the square of the reference's mean S0. Times are those of the
-rendering loop alone, by the wall: drude's `render_seconds`, and Mitsuba's mi.render of a scene that
-is loaded and, in the llvm variant, compiled already. Medians over the rounds; above 1 is better for
-drude. Ends with status 0 where mitsuba is missing.
+Every round renders once with each program, one after the other, with its own seed. The error is
+that of S0 (and of S1..S3 together) against the same program's own reference of many more samples,
+mean of squares over pixels and R, G, B, over the square of the reference's mean S0. Times are those
+of the rendering loop alone, by the wall: drude's `render_seconds`, and Mitsuba's mi.render of a
+scene that is loaded and, in the llvm variant, compiled already. Medians over the rounds; above 1 is
+better for drude. Ends with status 0 where mitsuba is missing.
 """
 
 import argparse
