@@ -132,7 +132,8 @@ Material named_material(ParameterList& list, BuildContext& context) {
         // Errors in the file have its own line and column.
         material = parse_material(context.assets.read(path, place), path);
     } else {
-        material = at_place(place, [&] { return find_material(name); });
+        // No set has a name that shown() would change.
+        material = at_place(place, [&] { return find_material(shown(name)); });
     }
     const std::string range = material.substrate.range_warning(spectrum_first_nm, spectrum_last_nm);
     if (!range.empty()) context.messages.note(place, range);
@@ -154,14 +155,14 @@ void read_lobe(Material& surface, ParameterList& list) {
     }
     if (has_lobe) {
         const std::string lobe = list.text("lobe", "");
-        surface.lobe = at_place(list.place_of("lobe"), [&] { return parse_lobe(lobe); });
+        surface.lobe = at_place(list.place_of("lobe"), [&] { return parse_lobe(shown(lobe)); });
         surface.masking = allows_smith(surface.lobe) ? Masking::smith : Masking::v_groove;
     }
     surface.beta = list.number("beta", surface.beta);
     if (list.has("masking")) {
         const std::string masking = list.text("masking", "");
         surface.masking =
-            at_place(list.place_of("masking"), [&] { return parse_masking(masking); });
+            at_place(list.place_of("masking"), [&] { return parse_masking(shown(masking)); });
     }
 }
 

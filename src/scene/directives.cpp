@@ -1,4 +1,6 @@
 // One function a directive, or a family of directives: its arguments, then SceneReader's turn.
+#include <algorithm>
+
 #include "scene/old_versions.h"
 #include "scene/parser.h"
 #include "scene/transforms.h"
@@ -157,9 +159,16 @@ void Parser::named_thing(const std::string& directive, const Place& place) {
 
 void Parser::option(const std::string& directive, const Place& place) {
     const std::string declaration = string_argument(directive, "the name of an option");
+    // pbrt-v4 has the name alone; a type before it, as of a parameter, does no harm.
     const size_t blank = declaration.find_last_of(" \t");
+    const std::string type = blank == std::string::npos ? "" : declaration.substr(0, blank);
     const std::string name =
         blank == std::string::npos ? declaration : declaration.substr(blank + 1);
+    const std::vector<std::string> types = {"", "bool", "float", "integer", "string"};
+    if (std::find(types.begin(), types.end(), type) == types.end()) {
+        user_error_at(place, "Option \"{}\": there is no type '{}'{}; expected one of:{}",
+                      shown(name), shown(type), did_you_mean(type, types), fmt::join(types, " "));
+    }
     const Token value = lexer().take();
     if (value.kind != Token::Kind::word && value.kind != Token::Kind::string) {
         user_error_at(lexer().place(value), "Option \"{}\": found '{}'; expected a value",
@@ -168,11 +177,17 @@ void Parser::option(const std::string& directive, const Place& place) {
     if (reader_.in_world()) {
         user_error_at(place, "Option behind WorldBegin; expected it before");
     }
-    reader_.option(name, string_value(value), place);
+    // As in pbrt-v4, which drops hyphens, underlines and capitals.
+    std::string plain;
+    for (const char c : name) {
+        if (c != '-' && c != '_')
+            plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    reader_.option(plain, string_value(value), place);
 }
 
 void Parser::colour_space(const std::string& directive, const Place& place) {
-    reader_.colour_space(string_argument(directive, "the name of a colour space"), place);
+    reader_.set_colour_space(string_argument(directive, "the name of a colour space"), place);
 }
 
 std::string Parser::type_of(ParameterList& list, const std::string& kind) {

@@ -22,6 +22,7 @@ struct GraphicsState {
     // ActiveTransform EndTime: transformations then are those of the end of a motion.
     bool start_time_active = true;
     bool reverse_orientation = false;
+    ColourSpace colour_space = ColourSpace::srgb;
     int material = 0;  // as in Shape; below -1 a name that is resolved at the end
     std::shared_ptr<PendingAreaLight> area_light;
     // Defaults that Attribute gave, by kind ("shape", "light", ...). Never changed in place.

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/colour_space.h"
 #include "scene/lexer.h"
 #include "scene/messages.h"
 
@@ -44,6 +45,8 @@ struct Parameter {
     std::vector<bool> booleans;
     bool from_attribute = false;  // a default that an Attribute directive gave
     bool used = false;
+    // Of its rgb: what ColorSpace said last before the parameter.
+    ColourSpace colour_space = ColourSpace::srgb;
 
     // Where the values start; the place of one of them is found by reading them again, so that
     // places cost nothing where there is no error.
@@ -54,7 +57,7 @@ struct Parameter {
 // Reads the parameters that stand at the lexer, up to the first token that starts none. Errors
 // (user): unknown types, values of another type, counts the type cannot have, numbers that are not
 // finite, names given twice.
-std::vector<Parameter> read_parameters(Lexer& lexer);
+std::vector<Parameter> read_parameters(Lexer& lexer, ColourSpace colour_space);
 
 // The parameters of one directive and what a builder gets from them. Getters mark as used.
 class ParameterList {

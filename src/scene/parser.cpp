@@ -174,7 +174,7 @@ void Parser::check_name(const std::string& kind, const std::string& name, const 
 }
 
 ParameterList Parser::parameters(const std::string& owner, const Place& place) {
-    return ParameterList(owner, place, read_parameters(lexer()));
+    return ParameterList(owner, place, read_parameters(lexer(), reader_.colour_space()));
 }
 
 Scene parse_scene(const std::string& text, const std::string& file) {

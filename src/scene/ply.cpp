@@ -130,6 +130,12 @@ void read_vertices(const PlyElement& element, Body& body, PlyFormat format, Tria
             user_error_at(element.place, "PLY vertices without x, y and z; expected all three");
         }
     }
+    for (const int index :
+         {position[0], position[1], position[2], normal[0], normal[1], normal[2], uv[0], uv[1]}) {
+        if (index < 0 || !element.properties[static_cast<size_t>(index)].is_list) continue;
+        user_error_at(element.place, "the PLY vertices have a list '{}'; expected one number",
+                      shown(element.properties[static_cast<size_t>(index)].name));
+    }
     const bool has_normals = normal[0] >= 0 && normal[1] >= 0 && normal[2] >= 0;
     const bool has_uv = uv[0] >= 0 && uv[1] >= 0;
     mesh.positions.reserve(element.count);

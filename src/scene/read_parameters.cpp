@@ -79,7 +79,7 @@ void add_value(Parameter& parameter, const TypeFacts& facts, const Token& token,
                const Lexer& lexer) {
     const auto wrong = [&](std::string_view expected) {
         user_error_at(lexer.place(token), "\"{} {}\": found {}; expected {}", facts.name,
-                      parameter.name, described(token), expected);
+                      shown(parameter.name), described(token), expected);
     };
     const bool quoted = token.kind == Token::Kind::string;
     switch (facts.kind) {
@@ -124,7 +124,7 @@ void check_count(const Parameter& parameter, const TypeFacts& facts) {
         parameter.numbers.size() + parameter.strings.size() + parameter.booleans.size();
     const auto wrong = [&](const std::string& expected) {
         user_error_at(parameter.place, "\"{} {}\" has {} value{}; expected {}", facts.name,
-                      parameter.name, count, count == 1 ? "" : "s", expected);
+                      shown(parameter.name), count, count == 1 ? "" : "s", expected);
     };
     if (count == 0) wrong("at least one");
     if (facts.single && count != facts.components) wrong(std::to_string(facts.components));
@@ -135,7 +135,7 @@ void check_count(const Parameter& parameter, const TypeFacts& facts) {
     }
 }
 
-Parameter read_parameter(Lexer& lexer) {
+Parameter read_parameter(Lexer& lexer, ColourSpace colour_space) {
     const Token declaration = lexer.take();
     const Place place = lexer.place(declaration);
     const std::vector<std::string> words = split_words(string_value(declaration));
@@ -151,13 +151,14 @@ Parameter read_parameter(Lexer& lexer) {
         user_error_at(place, "unknown parameter type '{}'{}; expected one of: {}", shown(words[0]),
                       did_you_mean(words[0], names), fmt::join(names, ", "));
     }
-    Parameter parameter{facts->type, words[1], place, {}, {}, {}, false, false, lexer};
+    Parameter parameter{facts->type, words[1], place, {},           {},
+                        {},          false,    false, colour_space, lexer};
     Token value = lexer.take();
     if (value.kind == Token::Kind::open) {
         while ((value = lexer.take()).kind != Token::Kind::close) {
             if (value.kind == Token::Kind::end || value.kind == Token::Kind::open) {
                 user_error_at(lexer.place(value), "\"{} {}\": found {}; expected a value or ']'",
-                              facts->name, parameter.name, described(value));
+                              facts->name, shown(parameter.name), described(value));
             }
             add_value(parameter, *facts, value, lexer);
         }
@@ -165,7 +166,7 @@ Parameter read_parameter(Lexer& lexer) {
         add_value(parameter, *facts, value, lexer);
     } else {
         user_error_at(lexer.place(value), "\"{} {}\": found {}; expected a value or '['",
-                      facts->name, parameter.name, described(value));
+                      facts->name, shown(parameter.name), described(value));
     }
     check_count(parameter, *facts);
     return parameter;
@@ -185,11 +186,11 @@ Place Parameter::place_of(size_t value) const {
     return lexer.place(token);
 }
 
-std::vector<Parameter> read_parameters(Lexer& lexer) {
+std::vector<Parameter> read_parameters(Lexer& lexer, ColourSpace colour_space) {
     std::vector<Parameter> parameters;
     std::unordered_set<std::string> names;
     while (lexer.peek().kind == Token::Kind::string) {
-        Parameter parameter = read_parameter(lexer);
+        Parameter parameter = read_parameter(lexer, colour_space);
         if (!names.insert(parameter.name).second) {
             user_error_at(parameter.place, "the parameter '{}' is given twice; expected it once",
                           shown(parameter.name));

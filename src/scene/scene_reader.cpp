@@ -175,6 +175,12 @@ void SceneReader::setting(const std::string& directive, const std::string& name,
         check_matrix(state_.ctm, list.place());
         coordinate_systems_["camera"] = glm::inverse(state_.ctm);
     }
+    if (directive == "Film" && state_.colour_space != ColourSpace::srgb) {
+        messages_.stand_in(
+            list.place(),
+            fmt::format("Film: the picture is written in linear sRGB, not in the ColorSpace \"{}\"",
+                        colour_space_name(state_.colour_space)));
+    }
     const auto found = settings_.find(directive);
     if (found != settings_.end()) {
         messages_.note(list.place(), fmt::format("this {} replaces that of line {}", directive,
@@ -204,17 +210,13 @@ void SceneReader::option(const std::string& name, const std::string& value, cons
     }
 }
 
-void SceneReader::colour_space(const std::string& name, const Place& place) {
+void SceneReader::set_colour_space(const std::string& name, const Place& place) {
     if (!is_known_name("ColorSpace", name)) {
         const std::vector<std::string> names = known_names("ColorSpace");
         user_error_at(place, "unknown ColorSpace '{}'{}; expected one of: {}", shown(name),
                       did_you_mean(name, names), fmt::join(names, ", "));
     }
-    if (name != "srgb") {
-        messages_.stand_in(place, fmt::format("ColorSpace \"{}\" is not modelled; rgb values are "
-                                              "taken as sRGB",
-                                              name));
-    }
+    state_.colour_space = parse_colour_space(name);
 }
 
 void SceneReader::read_settings(const Place& place) {

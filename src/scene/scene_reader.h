@@ -21,6 +21,8 @@ class SceneReader {
     Assets& assets() { return assets_; }
     Messages& messages() { return messages_; }
     bool in_world() const { return in_world_; }
+    // In which rgb is given from here on.
+    ColourSpace colour_space() const { return state_.colour_space; }
 
     // ---- transformations: the current matrix times this one
     void transform(const glm::dmat4& matrix, const Place& place);
@@ -46,7 +48,7 @@ class SceneReader {
     // ---- settings, before WorldBegin
     void setting(const std::string& directive, const std::string& name, ParameterList list);
     void option(const std::string& name, const std::string& value, const Place& place);
-    void colour_space(const std::string& name, const Place& place);
+    void set_colour_space(const std::string& name, const Place& place);
 
     // ---- the world
     void material(const std::string& name, ParameterList list);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/numbers.h"
 
@@ -45,6 +46,48 @@ RGB rgb_of(const Parameter& parameter) {
     return {parameter.numbers[0], parameter.numbers[1], parameter.numbers[2]};
 }
 
+// The RGB of a parameter in linear sRGB, inside [0, highest] where it was inside that in its own
+// colour space.
+RGB srgb_of(const Parameter& parameter, const RGB& converted, double highest,
+            BuildContext& context) {
+    const RGB own = rgb_of(parameter);
+    if (std::any_of(own.begin(), own.end(), [&](double v) { return !(v >= 0 && v <= highest); })) {
+        return converted;
+    }
+    const RGB inside = into_gamut(converted, highest);
+    double change = 0, size = 1;
+    for (size_t c = 0; c < 3; ++c) {
+        change = std::max(change, std::abs(inside[c] - converted[c]));
+        size = std::max(size, std::abs(converted[c]));
+    }
+    if (change > 1e-6 * size) {
+        context.messages.stand_in(
+            parameter.place,
+            fmt::format("'{}': the colour {} {} {} of the ColorSpace \"{}\" is outside sRGB, whose "
+                        "primaries the spectra of colours are made of; a paler one of the same "
+                        "luminance stands in",
+                        parameter.name, format_double(own[0]), format_double(own[1]),
+                        format_double(own[2]), colour_space_name(parameter.colour_space)));
+    }
+    return inside;
+}
+
+// A colour of matter. Above 1 it may be anything (an index of refraction), but never negative.
+RGB matter_rgb(const Parameter& parameter, BuildContext& context) {
+    const RGB own = rgb_of(parameter);
+    const RGB converted = matter_to_srgb(parameter.colour_space, own);
+    if (parameter.colour_space == ColourSpace::srgb) return converted;
+    const double most = *std::max_element(own.begin(), own.end());
+    return srgb_of(parameter, converted, most <= 1 ? 1 : std::numeric_limits<double>::max(),
+                   context);
+}
+
+RGB light_rgb(const Parameter& parameter, BuildContext& context) {
+    const RGB converted = light_to_srgb(parameter.colour_space, rgb_of(parameter));
+    if (parameter.colour_space == ColourSpace::srgb) return converted;
+    return srgb_of(parameter, converted, std::numeric_limits<double>::max(), context);
+}
+
 template <class Value>
 const Value& named_texture(const Parameter& parameter,
                            const std::map<std::string, Value, std::less<>>& textures,
@@ -72,7 +115,7 @@ void stand_in_for_texture(const Parameter& parameter, BuildContext& context) {
 SpectrumValue matter_value(const Parameter& parameter, BuildContext& context) {
     switch (parameter.type) {
         case ParameterType::rgb:
-            return {rgb_reflectance(rgb_of(parameter))};
+            return {rgb_reflectance(matter_rgb(parameter, context))};
         case ParameterType::blackbody:
             return {blackbody_of(parameter)};
         case ParameterType::texture:
@@ -138,7 +181,7 @@ DenseSpectrum light_spectrum(ParameterList& list, const std::string& name, Build
                               list.owner(), name, format_double(rgb[i]));
             }
         }
-        return rgb_illuminant(rgb);
+        return rgb_illuminant(light_rgb(*parameter, context));
     }
     DenseSpectrum spectrum;
     bool is_dark = false;

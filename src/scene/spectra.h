@@ -29,8 +29,9 @@ std::optional<MetalSpectrum> metal_spectrum(const std::string& name, const Place
 // Of a parameter of type spectrum: pairs as they stand, a name, or a file of pairs (.spd).
 SampledTable sampled_table(const Parameter& parameter, BuildContext& context);
 
-// A parameter that describes a property of matter, on the project's grid: rgb through the basis of
-// Mallett and Yuksel (unbounded), blackbody with its peak at 1, or a texture.
+// A parameter that describes a property of matter, on the project's grid: rgb of its ColorSpace
+// (see colour_space.h) through the basis of Mallett and Yuksel (unbounded), blackbody with its peak
+// at 1, or a texture.
 SpectrumValue matter_value(const Parameter& parameter, BuildContext& context);
 // The same where it cannot change over a surface: a texture that does gives a message, and a value
 // that is typical of it.

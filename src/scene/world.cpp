@@ -15,12 +15,14 @@ size_t slot_of(int reference) {
     return static_cast<size_t>(-2 - reference);
 }
 
-// Instances are copied: beyond this many vertices and triangles that is no way to draw them.
-constexpr size_t most_copied = 50'000'000;
+// Instances are copied: beyond this many vertices and triangles that is no way to draw them. What a
+// shape is apart from them, its matrix and its place, weighs as much as so many.
+constexpr size_t most_copied = 50'000'000, weight_of_shape = 20;
 
 size_t size_of(const Shape& shape) {
     const TriangleMesh* mesh = std::get_if<TriangleMesh>(&shape.geometry);
-    return mesh == nullptr ? 1 : mesh->positions.size() + mesh->triangles.size();
+    return weight_of_shape +
+           (mesh == nullptr ? 0 : mesh->positions.size() + mesh->triangles.size());
 }
 
 }  // namespace
