@@ -86,7 +86,7 @@ ImageTexture build_image_texture(ParameterList& list, const glm::dmat4& world_fr
                         list.owner(), filter));
     }
     if (list.has("maxanisotropy")) list.number("maxanisotropy", 8);
-    image.scale = list.number("scale", 1);
+    image.scale = list.number_in("scale", 1, -1e15, 1e15);
     image.invert = list.boolean("invert", false);
     read_encoding(image, list, context);
     return image;

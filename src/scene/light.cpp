@@ -4,6 +4,7 @@
 // light_spectrum), then multiplied by "scale"; "illuminance" multiplies what is then left so that a
 // patch facing the light (the upper half of an infinite light) receives that many lux in pbrt's
 // unit, the Y of spectrum_to_xyz; "power" likewise with lumen.
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -22,10 +23,24 @@ namespace drude {
 namespace {
 
 constexpr double brightest = 1e15;
+// Of a light with all its factors; what is above overflows in single precision.
+constexpr double brightest_product = 1e20;
 
 DenseSpectrum times(DenseSpectrum spectrum, double factor) {
     for (double& value : spectrum) value *= factor;
     return spectrum;
+}
+
+// The spectrum of a light with its scale.
+DenseSpectrum scaled(const DenseSpectrum& spectrum, double scale, const ParameterList& list) {
+    DenseSpectrum result = times(spectrum, scale);
+    const double most = *std::max_element(result.begin(), result.end());
+    if (!(most <= brightest_product)) {
+        user_error_at(list.place(),
+                      "{}: its spectrum and its scales come to {} together; expected at most {}",
+                      list.owner(), format_double(most), format_double(brightest_product));
+    }
+    return result;
 }
 
 // pbrt takes 0 and less as "not given".
@@ -52,7 +67,7 @@ void build_distant(ParameterList& list, const glm::dmat4& world_from_light, Buil
     double scale = list.number_in("scale", 1, 0, brightest);
     const double illuminance = target(list, "illuminance");
     if (illuminance > 0) scale *= illuminance;
-    light.irradiance = times(light_spectrum(list, "L", context), scale);
+    light.irradiance = scaled(light_spectrum(list, "L", context), scale, list);
     light.direction = axis_of(list, list.point3("from", {0, 0, 0}), list.point3("to", {0, 0, 1}),
                               world_from_light);
     light.x_axis = glm::normalize(glm::dvec3(world_from_light[0]));
@@ -104,7 +119,7 @@ void build_point(const std::string& name, ParameterList& list, const glm::dmat4&
     }
     double scale = list.number_in("scale", 1, 0, brightest);
     if (const double power = target(list, "power"); power > 0) scale *= power / cone(light);
-    light.intensity = times(light_spectrum(list, "I", context), scale);
+    light.intensity = scaled(light_spectrum(list, "I", context), scale, list);
     light.polarisation = read_light_polarisation(list);
     scene.point_lights.push_back(std::move(light));
 }
@@ -167,6 +182,10 @@ void scale_picture(InfiniteLight* light, double illuminance, const Place& place,
                       light->image, format_double(own), format_double(illuminance));
     }
     light->scale *= illuminance / own;
+    if (!(light->scale <= brightest_product)) {
+        user_error_at(place, "LightSource \"infinite\": its scale comes to {}; expected at most {}",
+                      format_double(light->scale), format_double(brightest_product));
+    }
     context.messages.note(place,
                           fmt::format("LightSource \"infinite\": the picture is scaled so that an "
                                       "upward patch receives an illuminance of {}; pbrt-v4 takes "
@@ -198,7 +217,7 @@ void build_infinite(ParameterList& list, const glm::dmat4& world_from_light, Bui
     } else {
         // Constant radiance L gives the patch pi L.
         if (illuminance > 0) light.scale *= illuminance / std::numbers::pi;
-        light.radiance = times(light_spectrum(list, "L", context), light.scale);
+        light.radiance = scaled(light_spectrum(list, "L", context), light.scale, list);
         light.scale = 1;
     }
     if (const Parameter* portal = list.values("portal", ParameterType::point3)) {
@@ -237,7 +256,7 @@ AreaLightRecipe build_area_light(const std::string& name, ParameterList& list,
     recipe.light.place = list.place();
     recipe.light.two_sided = list.boolean("twosided", false);
     recipe.light.radiance =
-        times(light_spectrum(list, "L", context), list.number_in("scale", 1, 0, brightest));
+        scaled(light_spectrum(list, "L", context), list.number_in("scale", 1, 0, brightest), list);
     recipe.power = target(list, "power");
     recipe.light.polarisation = read_light_polarisation(list);
     if (list.has("filename")) {
@@ -255,6 +274,14 @@ AreaLight area_light_on(const AreaLightRecipe& recipe, double area) {
     if (recipe.power > 0) {
         const double sides = light.two_sided ? 2 : 1;
         light.radiance = times(light.radiance, recipe.power / (std::numbers::pi * area * sides));
+        const double most = *std::max_element(light.radiance.begin(), light.radiance.end());
+        if (!(most <= brightest_product)) {
+            user_error_at(light.place,
+                          "AreaLightSource: its power on a shape of area {} comes to a radiance of "
+                          "{}; expected at most {}",
+                          format_double(area), format_double(most),
+                          format_double(brightest_product));
+        }
     }
     return light;
 }

@@ -1,8 +1,10 @@
 // Texture: which builder serves, and what is the same everywhere is made a constant at once.
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "base/numbers.h"
 #include "scene/builders.h"
 #include "scene/spectra.h"
 #include "scene/transforms.h"
@@ -34,6 +36,7 @@ struct Kind<NumberValue> {
     static void add(NumberValue& sum, double weight, const NumberValue& value) {
         sum.constant += weight * value.constant;
     }
+    static double size(const NumberValue& value) { return std::abs(value.constant); }
     static auto& names(Textures& textures) { return textures.numbers; }
     static auto& list(Textures& textures) { return textures.number_textures; }
     static auto& visits(Textures& textures) { return textures.number_visits; }
@@ -66,6 +69,11 @@ struct Kind<SpectrumValue> {
             sum.constant[i] += weight * value.constant[i];
         }
     }
+    static double size(const SpectrumValue& value) {
+        double largest = 0;
+        for (const double v : value.constant) largest = std::max(largest, std::abs(v));
+        return largest;
+    }
     static auto& names(Textures& textures) { return textures.spectra; }
     static auto& list(Textures& textures) { return textures.spectrum_textures; }
     static auto& visits(Textures& textures) { return textures.spectrum_visits; }
@@ -92,7 +100,7 @@ class TextureBuilder {
 
     void build() {
         Textures& textures = context_.textures;
-        const Value value = read();
+        const Value value = in_range(read(), "");
         list_.finish(known_parameters("Texture", type_), context_.messages);
         if (!Kind<Value>::names(textures).emplace(name_, value).second) {
             user_error_at(list_.place(), "the texture '{}' is defined twice; expected another name",
@@ -120,12 +128,29 @@ class TextureBuilder {
         return Kind<Value>::of(0.5);
     }
 
+    // What is drawn is single precision, and differences of products of these.
+    template <class Any>
+    Any in_range(Any value, const std::string& name) const {
+        constexpr double largest = 1e15;
+        const double size = Kind<Any>::size(value);
+        if (size <= largest) return value;
+        user_error_at(list_.place_of(name), "{}: {} comes to {}; expected at most {}",
+                      list_.owner(), name.empty() ? "the texture" : name, format_double(size),
+                      format_double(largest));
+    }
+
     Value operand(const std::string& name, double otherwise) {
-        return Kind<Value>::operand(list_, name, otherwise, context_);
+        return in_range(Kind<Value>::operand(list_, name, otherwise, context_), name);
+    }
+    Value corner(const std::string& name, double otherwise) {
+        return in_range(Kind<Value>::constant(list_, name, otherwise, context_), name);
+    }
+    NumberValue factor(const std::string& name, double otherwise) {
+        return in_range(number_value(list_, name, otherwise, context_), name);
     }
 
     Value read_scale() {
-        ScaleTexture<Value> scale{operand("tex", 1), number_value(list_, "scale", 1, context_)};
+        ScaleTexture<Value> scale{operand("tex", 1), factor("scale", 1)};
         const Value middle = typical<Value>({{scale.scale.constant, &scale.texture}});
         if (scale.texture.texture < 0 && scale.scale.texture < 0) return middle;
         const int visits = visits_of(scale.texture) + visits_of(scale.scale);
@@ -133,8 +158,7 @@ class TextureBuilder {
     }
 
     Value read_mix() {
-        MixTexture<Value> mix{operand("tex1", 0), operand("tex2", 1),
-                              number_value(list_, "amount", 0.5, context_)};
+        MixTexture<Value> mix{operand("tex1", 0), operand("tex2", 1), factor("amount", 0.5)};
         const double t = mix.amount.constant;
         const Value middle = typical<Value>({{1 - t, &mix.first}, {t, &mix.second}});
         if (mix.amount.texture < 0) {
@@ -164,10 +188,10 @@ class TextureBuilder {
     Value read_bilerp() {
         BilerpTexture<Value> bilerp;
         bilerp.mapping = build_mapping(list_, world_from_texture_);
-        bilerp.v00 = Kind<Value>::constant(list_, "v00", 0, context_);
-        bilerp.v01 = Kind<Value>::constant(list_, "v01", 1, context_);
-        bilerp.v10 = Kind<Value>::constant(list_, "v10", 0, context_);
-        bilerp.v11 = Kind<Value>::constant(list_, "v11", 1, context_);
+        bilerp.v00 = corner("v00", 0);
+        bilerp.v01 = corner("v01", 1);
+        bilerp.v10 = corner("v10", 0);
+        bilerp.v11 = corner("v11", 1);
         const Value middle = typical<Value>(
             {{0.25, &bilerp.v00}, {0.25, &bilerp.v01}, {0.25, &bilerp.v10}, {0.25, &bilerp.v11}});
         return add(std::move(bilerp), middle, 0);

@@ -84,18 +84,19 @@ void SceneReader::resolve_mixes() {
     for (const auto& start : mixes_) {
         // Depth first; `path` holds the mixes that are being looked into.
         std::vector<std::pair<int, int>> path{{start.first, 0}};
+        std::set<int> open{start.first};
         while (!path.empty()) {
             auto& [index, part] = path.back();
             if (part == 2 || done.count(index) > 0) {
                 done.insert(index);
+                open.erase(index);
                 path.pop_back();
                 continue;
             }
             const MixMaterial& mix = std::get<MixMaterial>(scene_.materials[index]);
             const int next = part++ == 0 ? mix.first : mix.second;
             if (mixes_.find(next) == mixes_.end()) continue;
-            for (const auto& open : path) {
-                if (open.first != next) continue;
+            if (!open.insert(next).second) {
                 user_error_at(mixes_.at(next),
                               "this mix is made of itself; expected materials that are defined "
                               "without it");

@@ -70,11 +70,11 @@ class Checker {
     // `behind` it there may be textures of the list, as many as it has before it.
     void operand(const NumberValue& value, size_t behind) const {
         require(value.texture < static_cast<int>(behind), "a texture is made of those before it");
-        require(std::isfinite(value.constant), "a texture's number is finite");
+        require(std::abs(value.constant) <= 1e15, "a texture's number is in range");
     }
     void operand(const SpectrumValue& value, size_t behind) const {
         require(value.texture < static_cast<int>(behind), "a texture is made of those before it");
-        check_spectrum(value.constant, -1e300, 1e300, "a texture's spectrum is finite");
+        check_spectrum(value.constant, -1e15, 1e15, "a texture's spectrum is in range");
     }
     void any(const NumberValue& value) const { operand(value, scene_.number_textures.size()); }
     void any(const SpectrumValue& value) const { operand(value, scene_.spectrum_textures.size()); }
@@ -216,7 +216,7 @@ class Checker {
         require(within(p.dop, 0, 1) && std::isfinite(p.aolp_deg), "polarisation is in range");
     }
     void lights() const {
-        constexpr double most = 1e300;
+        constexpr double most = 1e20;
         for (const InfiniteLight& light : scene_.infinite_lights) {
             check_spectrum(light.radiance, 0, most, "radiance is 0 or more");
             require(finite(light.world_from_light), "a light's matrix is finite");
