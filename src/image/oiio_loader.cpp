@@ -41,8 +41,10 @@ OiioModule load() {
         resolve(library, "drude_oiio_read", module.read);
         resolve(library, "drude_oiio_release", module.release);
         resolve(library, "drude_oiio_png", module.png);
+        resolve(library, "drude_oiio_texture", module.texture);
+        resolve(library, "drude_oiio_texels", module.texels);
         if (!version || version() != drude_oiio_interface || !module.read || !module.release ||
-            !module.png) {
+            !module.png || !module.texture || !module.texels) {
             dlclose(library);
             outside_error("{}: belongs to another version of drude; install both together", path);
         }

@@ -14,6 +14,8 @@ struct OiioModule {
     decltype(&drude_oiio_read) read = nullptr;
     decltype(&drude_oiio_release) release = nullptr;
     decltype(&drude_oiio_png) png = nullptr;
+    decltype(&drude_oiio_texture) texture = nullptr;
+    decltype(&drude_oiio_texels) texels = nullptr;
 };
 
 // Where the module is looked for; see module_candidates().

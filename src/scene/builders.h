@@ -20,16 +20,23 @@
 
 namespace drude {
 
-// Named textures. Until textures are drawn each has one value everywhere.
+// Named textures, and those of them that change over a surface. A texture that is the same
+// everywhere is a constant from the start.
 struct Textures {
-    std::map<std::string, double, std::less<>> numbers;
-    std::map<std::string, DenseSpectrum, std::less<>> spectra;
+    std::map<std::string, NumberValue, std::less<>> numbers;
+    std::map<std::string, SpectrumValue, std::less<>> spectra;
+    std::vector<Texture<NumberValue>> number_textures;
+    std::vector<Texture<SpectrumValue>> spectrum_textures;
+    // How many textures one evaluation visits at most.
+    std::vector<int> number_visits, spectrum_visits;
 };
 
 struct BuildContext {
     Assets& assets;
     Messages& messages;
     Textures& textures;
+    // What stands for the material of that name until names are resolved, at the scene's end.
+    std::function<int(const std::string& name, const Place& place)> material_named;
 };
 
 // ---- settings ----------------------------------------------------------------------------------
@@ -58,6 +65,7 @@ Disk build_disk(ParameterList& list);
 Cylinder build_cylinder(ParameterList& list);
 TriangleMesh build_triangle_mesh(ParameterList& list, Messages& messages);
 TriangleMesh build_bilinear_mesh(ParameterList& list, Messages& messages);
+TriangleMesh build_loop_surface(ParameterList& list, Messages& messages);
 TriangleMesh build_ply_mesh(ParameterList& list, BuildContext& context);
 // Drops triangles without area and gives normals of length 0 a direction; Error (user) where no
 // triangle is left.
@@ -74,10 +82,23 @@ std::optional<SurfaceMaterial> build_material(const std::string& name, Parameter
 // `prefix` is "conductor." for the metal under a coat, otherwise "".
 ConductorMaterial build_conductor(ParameterList& list, const std::string& prefix,
                                   BuildContext& context);
+DielectricMaterial build_dielectric(ParameterList& list, BuildContext& context);
+ThinDielectricMaterial build_thin_dielectric(ParameterList& list, BuildContext& context);
+// "coatedconductor", or else "coateddiffuse".
+CoatedMaterial build_coated(ParameterList& list, bool on_metal, BuildContext& context);
+DiffuseTransmissionMaterial build_diffuse_transmission(ParameterList& list, BuildContext& context);
+// `name` is "linearpolariser", "retarder" or "circularpolariser".
+OpticalElementMaterial build_optical_element(const std::string& name, ParameterList& list);
 // `is_spectrum` tells the two kinds, "spectrum" and "float", apart. Enters the texture under
 // `name`.
 void build_texture(const std::string& name, bool is_spectrum, const std::string& type,
-                   ParameterList& list, BuildContext& context);
+                   ParameterList& list, const glm::dmat4& world_from_texture,
+                   BuildContext& context);
+// Texture "imagemap".
+ImageTexture build_image_texture(ParameterList& list, const glm::dmat4& world_from_texture,
+                                 BuildContext& context);
+// "mapping" and what belongs to it.
+TextureMapping build_mapping(ParameterList& list, const glm::dmat4& world_from_texture);
 
 // ---- lights ------------------------------------------------------------------------------------
 

@@ -11,7 +11,10 @@
 namespace drude {
 
 SceneReader::SceneReader(const std::string& file)
-    : assets_(file), context_{assets_, messages_, textures_} {
+    : assets_(file),
+      context_{assets_, messages_, textures_, [this](const std::string& name, const Place& place) {
+                   return material_reference(name, place);
+               }} {
     scene_.file = file;
     // Index 0 is pbrt's default material.
     scene_.materials.emplace_back(DiffuseMaterial{{constant_spectrum(0.5)}});
@@ -264,6 +267,8 @@ Scene SceneReader::finish(const Place& end) {
     }
     resolve_materials();
     expand_instances();
+    scene_.number_textures = std::move(textures_.number_textures);
+    scene_.spectrum_textures = std::move(textures_.spectrum_textures);
     messages_.write_to(scene_);
     scene_.sha256 = assets_.digest();
     return std::move(scene_);
