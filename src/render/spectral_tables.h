@@ -7,6 +7,7 @@
 #include "materials/rough_dielectric.h"
 #include "materials/torrance_sparrow.h"
 #include "render/wavelengths.h"
+#include "scene/plugin_surface.h"
 #include "scene/scene.h"
 
 namespace drude {
@@ -133,13 +134,27 @@ struct MixTables {
     float amount;
 };
 
+template <int N>
+struct PluginTables {
+    std::shared_ptr<const PluginSurface> surface;
+    std::vector<float> nanometres;  // of the lanes, phase by phase
+    explicit PluginTables(const PluginMaterial& m) : surface(m.surface) {
+        for (int phase = 0; phase < Wavelengths<N>::spacing; ++phase) {
+            for (int lane = 0; lane < N; ++lane) {
+                nanometres.push_back(static_cast<float>(Wavelengths<N>::nanometres(phase, lane)));
+            }
+        }
+    }
+};
+
 // Elements are no part of what scatters.
 struct NoTables {};
 
 template <int N>
 using SurfaceTables =
     std::variant<ConductorTables<N>, DiffuseTables<N>, DiffuseTransmissionTables<N>,
-                 DielectricTables<N>, ThinDielectricTables<N>, CoatTables<N>, MixTables, NoTables>;
+                 DielectricTables<N>, ThinDielectricTables<N>, CoatTables<N>, PluginTables<N>,
+                 MixTables, NoTables>;
 
 template <int N>
 struct SpectralTables {
@@ -193,7 +208,7 @@ struct SpectralTables {
         return MixTables{m.first, m.second, static_cast<float>(m.amount.constant)};
     }
     static Tables tables_of(const OpticalElementMaterial&) { return NoTables{}; }
-    static Tables tables_of(const PluginMaterial&) { return NoTables{}; }
+    static Tables tables_of(const PluginMaterial& m) { return PluginTables<N>(m); }
 };
 
 }  // namespace drude
