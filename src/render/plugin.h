@@ -52,6 +52,16 @@ extern "C" {
 #else
 #define DRUDE_HAS_BMI2 ""
 #endif
+#ifdef __FMA4__
+#define DRUDE_HAS_FMA4 " fma4"
+#else
+#define DRUDE_HAS_FMA4 ""
+#endif
+#ifdef __XOP__
+#define DRUDE_HAS_XOP " xop"
+#else
+#define DRUDE_HAS_XOP ""
+#endif
 #ifdef __AVX512F__
 #define DRUDE_HAS_AVX512F " avx512f"
 #else
@@ -83,9 +93,9 @@ extern "C" {
 #define DRUDE_HAS_AVX512VNNI ""
 #endif
 #define DRUDE_INSTRUCTION_SET                                                                    \
-    (DRUDE_HAS_SSE42 DRUDE_HAS_AVX DRUDE_HAS_AVX2 DRUDE_HAS_FMA DRUDE_HAS_BMI2 DRUDE_HAS_AVX512F \
-         DRUDE_HAS_AVX512BW DRUDE_HAS_AVX512DQ DRUDE_HAS_AVX512VL DRUDE_HAS_AVX512VBMI           \
-             DRUDE_HAS_AVX512VNNI)
+    DRUDE_HAS_SSE42 DRUDE_HAS_AVX DRUDE_HAS_AVX2 DRUDE_HAS_FMA DRUDE_HAS_BMI2 DRUDE_HAS_FMA4     \
+        DRUDE_HAS_XOP DRUDE_HAS_AVX512F DRUDE_HAS_AVX512BW DRUDE_HAS_AVX512DQ DRUDE_HAS_AVX512VL \
+            DRUDE_HAS_AVX512VBMI DRUDE_HAS_AVX512VNNI
 
 /* A parameter that the scene gives. The renderer has checked name, type and number of values. */
 typedef struct DrudeParameter {

@@ -12,6 +12,7 @@
 #include "render/reference_camera.h"
 #include "render/reference_geometry.h"
 #include "render/reference_light.h"
+#include "scene/plugin_surface.h"
 
 namespace drude {
 
@@ -196,12 +197,37 @@ class ReferenceTracer {
                 cosine > 0 ? spectrum_at(diffuse->reflectance.constant, nm) * cosine / pi : 0;
             return Matrix::diagonal(r, 0, 0, 0);
         }
+        if (const auto* plugin = std::get_if<PluginMaterial>(&scene_.materials[material])) {
+            return plugin_matrix(*plugin->surface, nm, n, in, in_frame, out, out_frame);
+        }
         const auto e = lobes_[material].evaluate(to_local(n, out), to_local(n, in));
         if (!(e.value > 0)) return Matrix::diagonal(0, 0, 0, 0);
         Matrix m =
             facet_matrix(material, nm, glm::normalize(in + out), in, in_frame, out, out_frame);
         for (auto& row : m.m) {
             for (double& element : row) element *= e.value;
+        }
+        return m;
+    }
+
+    Matrix plugin_matrix(const PluginSurface& surface, double nm, const Vec& n, const Vec& in,
+                         const Vec& in_frame, const Vec& out, const Vec& out_frame) const {
+        if (!(glm::dot(in, n) > 0)) return Matrix::diagonal(0, 0, 0, 0);
+        const glm::vec3 o(to_local(n, out)), i(to_local(n, in)), x_o(to_local(n, out_frame)),
+            x_i(to_local(n, in_frame));
+        const DrudeDirections directions{{o.x, o.y, o.z},
+                                         {i.x, i.y, i.z},
+                                         {x_o.x, x_o.y, x_o.z},
+                                         {x_i.x, x_i.y, x_i.z},
+                                         static_cast<float>(handedness_)};
+        const float wavelength = static_cast<float>(nm);
+        float elements[16] = {};
+        surface.evaluate(directions, &wavelength, 1, elements);
+        Matrix m;
+        for (int row = 0; row < 4; ++row) {
+            for (int column = 0; column < 4; ++column) {
+                m.m[row][column] = static_cast<double>(elements[4 * row + column]);
+            }
         }
         return m;
     }
@@ -229,6 +255,19 @@ class ReferenceTracer {
             *in = to_world({r * std::cos(2 * pi * u2), r * std::sin(2 * pi * u2), z});
             if (!(z > 0)) return 0;
             return uniform ? 2 * pi : pi / z;
+        }
+        if (const auto* plugin = std::get_if<PluginMaterial>(&scene_.materials[material])) {
+            const glm::vec3 o(to_local(n, out));
+            // Below 1 in float too.
+            const auto below_one = [](double v) {
+                return std::min(static_cast<float>(v), 0x1.fffffep-1f);
+            };
+            const float u[3] = {below_one(u1), below_one(u2), below_one(u3)};
+            glm::vec3 i(0);
+            float pdf = 0;
+            if (!plugin->surface->sample(&o.x, u, &i.x, &pdf) || !(pdf > 0)) return 0;
+            *in = to_world(Vec(i));
+            return 1 / static_cast<double>(pdf);
         }
         const auto s = lobes_[material].sample(to_local(n, out), u1, u2, u3);
         *in = to_world(s.i);

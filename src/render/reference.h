@@ -11,6 +11,7 @@
 //   shapes     spheres (cut or whole) and triangle meshes with vertex normals, under any affine
 //              transformation, mirroring ones and reversed orientation included;
 //   materials  diffuse, and conductors: bare, under films, or of a fixed reflectance, rough or not;
+//              plugins;
 //   lights     area lights (one- or two-sided), infinite lights (constant, lat-long, equal-area),
 //              distant and point lights and spots. The last three have no size to walk into:
 //              wherever a path meets a surface that is not a mirror, their term

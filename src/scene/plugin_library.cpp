@@ -67,6 +67,8 @@ std::vector<Extension> extensions() {
             {"avx2", __builtin_cpu_supports("avx2") != 0},
             {"fma", __builtin_cpu_supports("fma") != 0},
             {"bmi2", __builtin_cpu_supports("bmi2") != 0},
+            {"fma4", __builtin_cpu_supports("fma4") != 0},
+            {"xop", __builtin_cpu_supports("xop") != 0},
             {"avx512f", __builtin_cpu_supports("avx512f") != 0},
             {"avx512bw", __builtin_cpu_supports("avx512bw") != 0},
             {"avx512dq", __builtin_cpu_supports("avx512dq") != 0},
