@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "materials/film_stack.h"
+#include "materials/film_table.h"
 #include "materials/microfacet.h"
 #include "materials/packet.h"
 
@@ -56,6 +57,73 @@ void one_film(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * 8);
 }
 BENCHMARK(one_film);
+
+// Films of an anodised aluminium, in nanometres, at angles and wavelengths in no order: the closed
+// form and the table that averages over every nanometre.
+Material anodised(double thickness_nm) {
+    Material material = material_from_set(published_set("Al-Rakic"));
+    material.layers = {{published_set("Al2O3-Malitson-o"), thickness_nm}};
+    return material;
+}
+
+struct Angles {
+    uint32_t state = 1;
+    uint32_t next() { return state = state * 1664525u + 1013904223u; }
+    float cosine() { return static_cast<float>(next() >> 8) * 0x1p-24f + 1e-6f; }
+    int phase() { return static_cast<int>((next() >> 16) % 50); }
+};
+
+void film_formula(benchmark::State& state) {
+    using P = Packet<8>;
+    const Material material = anodised(static_cast<double>(state.range(0)));
+    const DenseIndex oxide = dense(material.layers[0].constants);
+    const DenseIndex metal = dense(material.substrate);
+    struct Row {
+        P n, k, film_n, wavelength;
+    };
+    std::vector<Row> rows(50);
+    for (int phase = 0; phase < 50; ++phase) {
+        for (int lane = 0; lane < 8; ++lane) {
+            const int i = phase + 50 * lane;
+            rows[phase].n.set(lane, static_cast<float>(metal.n[i]));
+            rows[phase].k.set(lane, static_cast<float>(metal.k[i]));
+            rows[phase].film_n.set(lane, static_cast<float>(oxide.n[i]));
+            rows[phase].wavelength.set(lane, static_cast<float>(spectrum_first_nm + i));
+        }
+    }
+    Angles angles;
+    for (auto _ : state) {
+        const Row& row = rows[angles.phase()];
+        const ThinFilm<P> film{{row.film_n, P(0.0f)}, P(static_cast<float>(state.range(0)))};
+        const auto r =
+            reflect(&film, 1, ComplexIndex<P>{row.n, row.k}, P(angles.cosine()), row.wavelength);
+        benchmark::DoNotOptimize(r);
+    }
+    state.SetItemsProcessed(state.iterations() * 8);
+}
+BENCHMARK(film_formula)->Arg(100)->Arg(3000)->Arg(100000);
+
+void film_table(benchmark::State& state) {
+    const FilmTable table(anodised(static_cast<double>(state.range(0))), 8);
+    Angles angles;
+    for (auto _ : state) {
+        const int phase = angles.phase();
+        const auto r = table.at<8>(angles.cosine(), phase);
+        benchmark::DoNotOptimize(r);
+    }
+    state.SetItemsProcessed(state.iterations() * 8);
+    state.SetLabel(std::to_string(table.bytes() / 1024) + " kB");
+}
+BENCHMARK(film_table)->Arg(100)->Arg(3000)->Arg(100000);
+
+void build_film_table(benchmark::State& state) {
+    const Material material = anodised(static_cast<double>(state.range(0)));
+    for (auto _ : state) {
+        const FilmTable table(material, 8);
+        benchmark::DoNotOptimize(table.bytes());
+    }
+}
+BENCHMARK(build_film_table)->Arg(100)->Arg(3000)->Arg(100000)->Unit(benchmark::kMillisecond);
 
 void sample_lobe(benchmark::State& state) {
     const auto lobe = static_cast<Lobe>(state.range(0));

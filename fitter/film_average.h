@@ -1,24 +1,11 @@
-// The nodes over which a film's reflectance is averaged.
+// The nodes over which a fit averages a film's reflectance.
 #pragma once
-
-#include <vector>
 
 #include "fitter/film_model.h"
 #include "fitter/fit.h"
+#include "materials/film_average.h"
 
 namespace drude {
-
-// Nodes of a Gaussian of standard deviation 1 and their weights, which sum to 1.
-struct GaussianNodes {
-    std::vector<double> x, weight;
-};
-
-// Fine enough for the average of a fringe whose phase scatters by `phase` radians, and of its
-// second harmonic.
-GaussianNodes gaussian_nodes(double phase);
-
-// The phase of a fringe, 4 pi n d/lambda, may scatter by so many radians; beyond, nothing is left.
-inline constexpr double largest_phase_spread = 6;
 
 // Standard deviation of a Gaussian of that full width at half maximum.
 double gaussian_sigma(double full_width);

@@ -7,6 +7,7 @@
 #include "fitter/point_fit.h"
 #include "fitter/residuals.h"
 #include "materials/effective_medium.h"
+#include "materials/film_average.h"
 
 namespace drude {
 
@@ -78,15 +79,6 @@ Reflection<T> film_reflection(const FilmProblem& problem, const BandNode& node,
         bruggeman(index, ComplexIndex<T>{T(1.0), T(0.0)}, T(roughness_void));
     const ThinFilm<T> films[] = {{half, roughness}, {index, thickness}};
     return reflect(films, 2, substrate, cos_theta, wavelength);
-}
-
-// A share of an average of intensities.
-template <class T>
-void add_weighted(const Reflection<T>& r, const T& weight, Reflection<T>* sum) {
-    sum->Rs = sum->Rs + weight * r.Rs;
-    sum->Rp = sum->Rp + weight * r.Rp;
-    sum->C = sum->C + weight * r.C;
-    sum->S = sum->S + weight * r.S;
 }
 
 // Averaged over the slit and the thicknesses; `indices` are the film's at the nodes of the slit.

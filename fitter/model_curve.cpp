@@ -44,7 +44,7 @@ Reflection<double> reflection(const FitResult& fit, const FittedPoint& point, do
 
 // The slit and the thicknesses of a film.
 struct Spreads {
-    GaussianNodes slit{{0}, {1}}, thickness{{0}, {1}};
+    AverageNodes slit{{0}, {1}}, thickness{{0}, {1}};
 };
 
 Spreads spreads_of(const FitResult& fit) {

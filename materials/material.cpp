@@ -17,6 +17,13 @@ void Material::check() const {
             user_error("{}: layer {} is {} nm thick, expected a finite number of at least 0", shown,
                        i + 1, thickness);
         }
+        const double spread = layers[i].thickness_spread_nm;
+        if (!(spread >= 0 && spread <= thickness / 5)) {
+            user_error(
+                "{}: the thickness of layer {} scatters by {} nm, expected 0 to {} nm, a fifth of "
+                "the thickness",
+                shown, i + 1, spread, thickness / 5);
+        }
     }
     // Not a comparison that NaN passes.
     if (!(beta >= 0 && beta < std::numbers::pi / 2)) {

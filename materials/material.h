@@ -13,6 +13,8 @@ namespace drude {
 struct FilmLayer {
     OpticalConstants constants;
     double thickness_nm = 0;  // >= 0
+    // Standard deviation of the thickness over the surface, Gaussian; at most a fifth of it.
+    double thickness_spread_nm = 0;
 };
 
 struct Provenance {
@@ -43,8 +45,9 @@ Material material_from_set(const OpticalConstants& set);
 // JSON, with round-trip numbers. parse_material: `file` names it in errors; unknown keys, missing
 // keys and wrong types are Errors (user) that name the key and the nearest valid one, and for
 // syntax errors file:line:column. A substrate or a layer is a table, or {"set": "Cu-McPeak"} for a
-// published set. Required are format, name and substrate; what is missing otherwise is that of a
-// bare mirror, with Smith masking as far as the lobe has it.
+// published set; a layer has "thickness_nm" and may have "thickness_spread_nm". Required are
+// format, name and substrate; what is missing otherwise is that of a bare mirror, with Smith
+// masking as far as the lobe has it.
 std::string format_material(const Material& material);
 Material parse_material(const std::string& json, const std::string& file);
 Material read_material(const std::string& path);

@@ -132,12 +132,22 @@ OpticalConstants read_constants(const JsonValue& object, const std::string& defa
 
 FilmLayer read_layer(const JsonValue& object, const std::string& material_name) {
     FilmLayer layer;
-    layer.constants = read_constants(object, material_name + " film", {"thickness_nm"});
+    layer.constants =
+        read_constants(object, material_name + " film", {"thickness_nm", "thickness_spread_nm"});
     const JsonValue thickness = object.at("thickness_nm");
     layer.thickness_nm = thickness.number();
     if (layer.thickness_nm < 0) {
         user_error_at(thickness.place(), "{} is {}, expected at least 0", thickness.shown(),
                       layer.thickness_nm);
+    }
+    if (object.has("thickness_spread_nm")) {
+        const JsonValue spread = object.at("thickness_spread_nm");
+        layer.thickness_spread_nm = spread.number();
+        if (!(layer.thickness_spread_nm >= 0 &&
+              layer.thickness_spread_nm <= layer.thickness_nm / 5)) {
+            user_error_at(spread.place(), "{} is {}, expected 0 to {}, a fifth of the thickness",
+                          spread.shown(), layer.thickness_spread_nm, layer.thickness_nm / 5);
+        }
     }
     return layer;
 }
@@ -185,6 +195,9 @@ std::string format_material(const Material& material) {
     for (const FilmLayer& layer : material.layers) {
         std::vector<std::string> members = constants_members(layer.constants, "    ");
         members.push_back(pair("thickness_nm", json_number(layer.thickness_nm)));
+        if (layer.thickness_spread_nm > 0) {
+            members.push_back(pair("thickness_spread_nm", json_number(layer.thickness_spread_nm)));
+        }
         layers.push_back("\n    " + object_text(members, "    "));
     }
     const std::string layers_text =

@@ -4,24 +4,36 @@
 #include <string>
 #include <vector>
 
+#include "materials/film_average.h"
 #include "materials/film_stack.h"
 #include "materials/material.h"
 
 namespace drude {
 
-// `wavelength_nm` > 0, cos_theta in (0, 1]. Outside the tables as OpticalConstants::at.
-inline Reflection<double> reflect(const Material& material, double wavelength_nm,
-                                  double cos_theta) {
-    const auto index = [&](const OpticalConstants& constants) {
-        const Index at = constants.at(wavelength_nm);
-        return ComplexIndex<double>{at.n, at.k};
-    };
-    std::vector<ThinFilm<double>> films;
-    for (const FilmLayer& layer : material.layers) {
-        films.push_back({index(layer.constants), layer.thickness_nm});
+// In light spread evenly over `width_nm` (0: of one wavelength) about `wavelength_nm` > 0, averaged
+// over the spread of the films' thickness; cos_theta in (0, 1]. Outside the tables as
+// OpticalConstants::at.
+inline Reflection<double> reflect(const Material& material, double wavelength_nm, double cos_theta,
+                                  double width_nm = 0) {
+    if (material.layers.empty()) {
+        const Index index = material.substrate.at(wavelength_nm);
+        return reflect(ComplexIndex<double>{index.n, index.k}, cos_theta);
     }
-    return reflect(films.data(), static_cast<int>(films.size()), index(material.substrate),
-                   cos_theta, wavelength_nm);
+    Reflection<double> sum{0, 0, 0, 0};
+    std::vector<ThinFilm<double>> films(material.layers.size());
+    const int harmonics = film_harmonics(material, wavelength_nm, cos_theta);
+    for (const FilmSample& sample : film_samples(material, wavelength_nm, width_nm, harmonics)) {
+        for (size_t j = 0; j < films.size(); ++j) {
+            const Index index = sample.layers[j];
+            films[j] = {{index.n, index.k}, sample.thickness_nm[j]};
+        }
+        const Reflection<double> r =
+            reflect(films.data(), static_cast<int>(films.size()),
+                    ComplexIndex<double>{sample.substrate.n, sample.substrate.k}, cos_theta,
+                    sample.wavelength_nm);
+        add_weighted(r, sample.weight, &sum);
+    }
+    return sum;
 }
 
 // True where substrate and films are vacuum: nothing is reflected but rounding, and Psi and Delta

@@ -1,6 +1,7 @@
 #include "base/files.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -10,10 +11,12 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <system_error>
 
 #include "base/error.h"
+#include "base/numbers.h"
 
 namespace drude {
 
@@ -153,6 +156,33 @@ void AtomicFile::commit() {
     }
     committed_ = true;
     sync_folder_of(final_path_);  // the rename itself must reach the disk too
+}
+
+void remove_abandoned_files(const std::string& path) {
+    namespace fs = std::filesystem;
+    const fs::path target(path);
+    const std::string before = "." + target.stem().string().substr(0, 100) + ".";
+    const std::string after = ".tmp" + target.extension().string().substr(0, 100);
+    const fs::path folder = target.parent_path().empty() ? "." : target.parent_path();
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        const std::string name = it->path().filename().string();
+        if (name.size() <= before.size() + after.size() || !name.starts_with(before) ||
+            !name.ends_with(after)) {
+            continue;
+        }
+        const std::string middle =
+            name.substr(before.size(), name.size() - before.size() - after.size());
+        const size_t dash = std::min(middle.find('-'), middle.size());
+        const auto process = parse_integer(middle.substr(0, dash));
+        if (!process || *process < 1 || *process > std::numeric_limits<pid_t>::max() ||
+            !parse_unsigned(middle.substr(std::min(dash + 1, middle.size())))) {
+            continue;
+        }
+        if (kill(static_cast<pid_t>(*process), 0) != 0 && errno == ESRCH) {
+            unlink(it->path().c_str());
+        }
+    }
 }
 
 void write_file(const std::string& path, std::string_view bytes) {

@@ -45,6 +45,10 @@ class AtomicFile {
     bool committed_ = false;
 };
 
+// Removes the temporary files that AtomicFile left beside `path` in processes of this machine that
+// were killed.
+void remove_abandoned_files(const std::string& path);
+
 // AtomicFile in one call.
 void write_file(const std::string& path, std::string_view bytes);
 

@@ -12,6 +12,7 @@ Command reduce_command();
 Command convert_command();
 Command fit_command();
 Command render_command();
+Command merge_command();
 Command compare_command();
 Command tonemap_command();
 Command view_command();

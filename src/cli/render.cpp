@@ -4,17 +4,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/executor.h"
 #include "base/interrupt.h"
+#include "base/numbers.h"
 #include "cli/command_list.h"
 #include "cli/json_output.h"
 #include "render/environment_choice.h"
+#include "render/film_checkpoint.h"
+#include "render/film_partial.h"
+#include "render/film_ranks.h"
 #include "render/transport_choice.h"
 #include "scene/resolution.h"
 
@@ -23,10 +29,11 @@ namespace drude {
 namespace {
 
 struct Options {
-    std::string scene, output, transport = "auto", environment, resolution, isa;
+    std::string scene, output, transport = "auto", environment, resolution, isa, shard;
     int samples = 0, wavelengths = 0, max_depth = -1;
+    double time = 0, error = 0, checkpoint = 0;
     uint64_t seed = 0;
-    bool spectral = false, stokes = false, dry_run = false;
+    bool spectral = false, stokes = false, dry_run = false, resume = false, allow_mixed = false;
 };
 
 void describe(const Scene& scene) {
@@ -45,6 +52,132 @@ void describe(const Scene& scene) {
     fmt::print("  {} infinite, {} distant, {} area lights\n", scene.infinite_lights.size(),
                scene.distant_lights.size(), scene.area_lights.size());
     fmt::print("  hash {}\n", scene.sha256);
+}
+
+// "i/n", counted from 0.
+void read_shard(const std::string& text, RenderOptions* options) {
+    const size_t slash = std::min(text.find('/'), text.size());
+    const auto i = parse_integer(text.substr(0, slash));
+    const auto n = parse_integer(text.substr(std::min(slash + 1, text.size())));
+    if (!i || !n || *n < 1 || *n > 65535 || *i < 0 || *i >= *n) {
+        user_error("--shard '{}': expected i/n with i from 0 to n - 1, e.g. 0/4", text);
+    }
+    options->shard = static_cast<int>(*i);
+    options->shards = static_cast<int>(*n);
+}
+
+// Where sums are saved; nowhere where the picture goes to a device or a pipe.
+std::string checkpoint_for(const std::string& output, const Ranks* ranks) {
+    std::error_code error;
+    const auto status = std::filesystem::status(output, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return "";
+    if (!ranks) return checkpoint_path(output);
+    const std::filesystem::path path(output);
+    return checkpoint_path(
+        (path.parent_path() /
+         fmt::format("{}.rank-{}-of-{}.exr", path.stem().string(), ranks->rank(), ranks->size()))
+            .string());
+}
+
+RenderOptions options_for(const Options& options, const OptionSet& given,
+                          const CommonOptions& common, const Ranks* ranks) {
+    RenderOptions result;
+    if (given.given("--spp")) result.samples_per_pixel = options.samples;
+    if (given.given("--time")) result.seconds = options.time;
+    if (given.given("--error")) result.error = options.error;
+    if (given.given("--seed")) result.seed = options.seed;
+    if (options.transport == "scalar") result.transport = Transport::scalar;
+    if (options.transport == "intensity") result.transport = Transport::intensity;
+    if (options.transport == "stokes") result.transport = Transport::stokes;
+    result.stokes = options.stokes;
+    result.spectral = options.spectral;
+    result.wavelengths = options.wavelengths;
+    result.threads = common.threads;
+    result.quiet = common.quiet || (ranks && ranks->rank() != 0);
+    result.isa = options.isa;
+    if (given.given("--shard")) read_shard(options.shard, &result);
+    result.ranks = ranks;
+    result.checkpoint = checkpoint_for(options.output, ranks);
+    if (given.given("--checkpoint")) result.checkpoint_seconds = options.checkpoint;
+    if (result.checkpoint.empty() && options.resume) {
+        user_error("--resume: {} is no ordinary file, so that no checkpoint lies beside it",
+                   options.output);
+    }
+    result.resume = options.resume;
+    result.allow_mixed = options.allow_mixed;
+    result.command_line = fmt::format("{}", fmt::join(common.command_line, " "));
+    return result;
+}
+
+// The picture, or the shard's sums, and what stdout says of it. An interrupted shard has its
+// checkpoint alone, an interrupted picture its file too where every pixel holds samples.
+void write_and_report(const Options& options, const RenderOptions& render_options,
+                      const CommonOptions& common, std::chrono::steady_clock::time_point start,
+                      RenderedFilm* film) {
+    RenderSummary& summary = film->summary;
+    const std::vector<std::string> more = count_warnings(film->part.counts);
+    summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
+    for (const std::string& warning : summary.warnings) {
+        fmt::print(stderr, "drude: warning: {}\n", warning);
+    }
+    const bool is_shard = render_options.shards > 1;
+    const bool writes = is_shard ? !summary.interrupted : summary.batches > 0;
+    if (writes && is_shard) {
+        write_partial(options.output, film->part, film->sums, render_options.command_line);
+    } else if (writes) {
+        write_film(options.output, *film, render_options.command_line);
+    }
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const int threads = common.threads > 0 ? common.threads : available_threads();
+    if (common.json) {
+        nlohmann::json json = {
+            {"output", writes ? options.output : ""},
+            {"seconds", seconds},
+            {"render_seconds", summary.render_seconds},
+            {"spp", summary.samples_per_pixel},
+            {"resumed_spp", summary.resumed_samples},
+            {"rays", summary.rays},
+            {"transport", transport_name(summary.transport)},
+            {"transport_reason", summary.transport_reason},
+            {"wavelengths", summary.wavelengths},
+            {"threads", threads},
+            {"processes", render_options.ranks ? render_options.ranks->size() : 1},
+            {"checkpoints", summary.checkpoints},
+            {"checkpoint_seconds", summary.checkpoint_seconds},
+            {"interrupted", summary.interrupted},
+            {"warnings", summary.warnings}};
+        json["error"] = summary.error ? nlohmann::json(*summary.error) : nlohmann::json();
+        print_json_document(json);
+        return;
+    }
+    if (!writes) return;
+    fmt::print(
+        "{}: {} samples a pixel, {:.3g} million rays in {:.2f} s on {} threads{}\n", options.output,
+        summary.samples_per_pixel, static_cast<double>(summary.rays) / 1e6, summary.render_seconds,
+        threads,
+        render_options.ranks ? fmt::format(" of {} processes", render_options.ranks->size()) : "");
+    if (summary.error) fmt::print("estimated relative error {:.3g}\n", *summary.error);
+    if (is_shard) fmt::print("shard {}; drude merge joins all of them\n", options.shard);
+    fmt::print("transport {}: {}\n", transport_name(summary.transport), summary.transport_reason);
+}
+
+// The exit status of an interrupted run, once it is said how to go on.
+int say_interrupted(const Options& options, const RenderOptions& render_options,
+                    const RenderedFilm& film, bool without_picture) {
+    const bool has_picture =
+        !without_picture && render_options.shards == 1 && film.summary.batches > 0;
+    std::string text = "interrupted";
+    if (has_picture) {
+        text += fmt::format("; {} holds the {} samples a pixel that were done", options.output,
+                            film.summary.samples_per_pixel);
+    }
+    if (!render_options.checkpoint.empty()) {
+        text += fmt::format("; {} holds {} of it: the same command with --resume goes on",
+                            render_options.checkpoint, has_picture ? "the sums" : "what was done");
+    }
+    fmt::print(stderr, "drude: {}\n", text);
+    return 128 + (interrupted() ? interrupted() : SIGTERM);
 }
 
 int run(const Options& options, const OptionSet& given, const CommonOptions& common) {
@@ -72,52 +205,26 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
         return 0;
     }
 
-    RenderOptions render_options;
-    if (given.given("--spp")) render_options.samples_per_pixel = options.samples;
-    if (given.given("--seed")) render_options.seed = options.seed;
-    if (options.transport == "scalar") render_options.transport = Transport::scalar;
-    if (options.transport == "intensity") render_options.transport = Transport::intensity;
-    if (options.transport == "stokes") render_options.transport = Transport::stokes;
-    render_options.stokes = options.stokes;
-    render_options.spectral = options.spectral;
-    render_options.wavelengths = options.wavelengths;
-    render_options.threads = common.threads;
-    render_options.quiet = common.quiet;
-    render_options.isa = options.isa;
-    RenderResult result = render(scene, render_options);
-    for (const std::string& warning : result.warnings) {
-        fmt::print(stderr, "drude: warning: {}\n", warning);
+    const std::unique_ptr<const Ranks> ranks = mpi_ranks();
+    RenderOptions render_options = options_for(options, given, common, ranks.get());
+    RenderedFilm film = render_film(scene, render_options);
+    // Where one process was interrupted no picture comes about: all save what they have.
+    if (ranks && ranks->any(film.summary.interrupted)) {
+        if (!film.summary.interrupted && !render_options.checkpoint.empty()) {
+            write_partial(render_options.checkpoint, film.part, film.sums,
+                          render_options.command_line);
+        }
+        ranks->finish();
+        return say_interrupted(options, render_options, film, true);
     }
-    result.image.attributes["commandLine"] = fmt::format("{}", fmt::join(common.command_line, " "));
-    write_exr(options.output, result.image, Compression::piz);
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-
-    const int threads = common.threads > 0 ? common.threads : available_threads();
-    if (common.json) {
-        const nlohmann::json json = {{"output", options.output},
-                                     {"seconds", seconds},
-                                     {"render_seconds", result.render_seconds},
-                                     {"spp", result.samples_per_pixel},
-                                     {"rays", result.rays},
-                                     {"transport", transport_name(result.transport)},
-                                     {"transport_reason", result.transport_reason},
-                                     {"wavelengths", result.wavelengths},
-                                     {"threads", threads},
-                                     {"interrupted", result.interrupted},
-                                     {"warnings", result.warnings}};
-        print_json_document(json);
-    } else {
-        fmt::print("{}: {} samples a pixel, {:.3g} million rays in {:.2f} s on {} threads\n",
-                   options.output, result.samples_per_pixel, static_cast<double>(result.rays) / 1e6,
-                   result.render_seconds, threads);
-        fmt::print("transport {}: {}\n", transport_name(result.transport), result.transport_reason);
+    if (ranks) gather_films(*ranks, options.allow_mixed, &film);
+    if (!ranks || ranks->rank() == 0) {
+        write_and_report(options, render_options, common, start, &film);
     }
-    if (result.interrupted) {
-        fmt::print(stderr, "drude: interrupted; {} holds the {} samples a pixel that were done\n",
-                   options.output, result.samples_per_pixel);
-        return 128 + interrupted();
-    }
+    // Only now: what is killed before finds its checkpoint again.
+    if (ranks) ranks->finish();
+    if (film.summary.interrupted) return say_interrupted(options, render_options, film, false);
+    if (!render_options.checkpoint.empty()) remove_checkpoint(render_options.checkpoint);
     return 0;
 }
 
@@ -135,16 +242,46 @@ Command render_command() {
         "scene and the layers asked for, and says which and why. The same seed gives the same bits "
         "on any number of threads.\n\n"
         "--environment FILE puts another picture around the scene (lat-long or equal-area; "
-        "'courtyard' is made by the program). An interrupt saves the samples that are complete.";
+        "'courtyard' is made by the program).\n\n"
+        "A picture ends at --spp samples a pixel, after --time seconds of rendering, or once its "
+        "relative error is estimated to be at most --error, whichever of those given comes first; "
+        "always with as many whole batches of samples (16 each) in every pixel. The error is the "
+        "root of the mean over the pixels of (variance of R + of G + of B) / (R^2 + G^2 + B^2 + "
+        "(m/10)^2), the variances those of the picture's own means between batches, m the mean of "
+        "the root of R^2 + G^2 + B^2; it is looked at after 64, 80, 96, 112, 128 samples and then "
+        "every eighth more, so that the same picture comes out every time. With --time the number "
+        "of samples depends on the machine; at least one batch is rendered.\n\n"
+        "--shard i/n (i from 0) renders a part of the samples as exact sums, which drude merge "
+        "joins: the picture is that of one run, bit by bit. So is that of a run which was killed "
+        "and goes on with --resume: exact sums are saved beside OUT.exr as OUT.checkpoint.exr now "
+        "and then (--checkpoint) and at an interrupt, which also leaves the picture so far. The "
+        "checkpoint goes when the picture is complete.\n\n"
+        "Under mpirun (Open MPI) the processes share the samples, and the first writes the "
+        "picture, "
+        "bit by bit that of one process. On Ctrl-C mpirun gives them one second to save their "
+        "checkpoints; --mca odls_base_sigkill_timeout 60 gives them more.";
     command.example =
         "drude render scenes/half-sphere.pbrt --environment courtyard --spp 64 -o copper.exr\n"
         "drude render scenes/cornell-metals.pbrt --stokes --spectral -o box.exr\n"
+        "drude render scenes/half-sphere.pbrt --error 0.02 -o copper.exr\n"
+        "drude render scene.pbrt --shard 0/2 -o part-0.exr\n"
+        "drude render scene.pbrt --spp 4096 -o OUT.exr --resume\n"
+        "mpirun -n 2 drude render scene.pbrt -o OUT.exr\n"
         "drude render scene.pbrt --dry-run";
     command.declare = [](OptionSet& set, const CommonOptions& common) {
         const auto options = std::make_shared<Options>();
         set.positional("SCENE", options->scene, "a pbrt-v4 scene file", true);
         set.option("-o,--output", options->output, "the EXR to write");
         set.option("--spp", options->samples, "samples a pixel (default: the scene's)");
+        set.option("--time", options->time, "seconds of rendering after which to stop");
+        set.option("--error", options->error, "relative error of the picture at which to stop");
+        set.option("--shard", options->shard, "i/n: part i of n of the samples, as exact sums");
+        set.option("--checkpoint", options->checkpoint,
+                   "seconds between checkpoints; 0: at an interrupt only (default: a minute or "
+                   "more, so that they cost less than 1 %)");
+        set.flag("--resume", options->resume, "go on from the checkpoint, where there is one");
+        set.flag("--allow-mixed", options->allow_mixed,
+                 "also from another instruction set, whose bits differ");
         set.option("--seed", options->seed, "of the samples (default: the scene's)");
         set.choice("--transport", options->transport, {"auto", "scalar", "intensity", "stokes"},
                    "what a path carries (default auto)");

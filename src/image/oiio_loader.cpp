@@ -3,16 +3,13 @@
 #include <dlfcn.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <sstream>
-#include <system_error>
 
 #include "base/error.h"
+#include "base/module_path.h"
 
 namespace drude {
 
@@ -44,8 +41,10 @@ OiioModule load() {
         resolve(library, "drude_oiio_read", module.read);
         resolve(library, "drude_oiio_release", module.release);
         resolve(library, "drude_oiio_png", module.png);
+        resolve(library, "drude_oiio_texture", module.texture);
+        resolve(library, "drude_oiio_texels", module.texels);
         if (!version || version() != drude_oiio_interface || !module.read || !module.release ||
-            !module.png) {
+            !module.png || !module.texture || !module.texels) {
             dlclose(library);
             outside_error("{}: belongs to another version of drude; install both together", path);
         }
@@ -65,41 +64,7 @@ OiioModule load() {
 }  // namespace
 
 std::vector<std::string> oiio_module_candidates() {
-    namespace fs = std::filesystem;
-    std::vector<std::string> candidates;
-    const auto add = [&](const fs::path& folder) {
-        const std::string path = (folder / file_name).lexically_normal().string();
-        if (std::find(candidates.begin(), candidates.end(), path) == candidates.end()) {
-            candidates.push_back(path);
-        }
-    };
-    if (const char* list = std::getenv("DRUDE_MODULE_PATH")) {
-        std::istringstream folders(list);
-        for (std::string folder; std::getline(folders, folder, ':');) {
-            if (!folder.empty()) add(folder);
-        }
-    }
-    std::error_code ignored;
-    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-    if (!program.empty()) {
-        const fs::path folder = program.parent_path();
-        add(folder);
-        const fs::path libraries = folder.parent_path() / "lib";
-        add(libraries / "drude");
-        std::vector<fs::path> architectures;
-        for (fs::directory_iterator it(libraries, ignored), end; !ignored && it != end;
-             it.increment(ignored)) {
-            if (fs::is_directory(it->path() / "drude", ignored))
-                architectures.push_back(it->path());
-        }
-        std::sort(architectures.begin(), architectures.end());
-        for (const fs::path& architecture : architectures) add(architecture / "drude");
-        add(folder.parent_path() / "lib64" / "drude");
-    }
-#ifdef DRUDE_MODULE_FOLDER
-    add(DRUDE_MODULE_FOLDER);
-#endif
-    return candidates;
+    return module_candidates(file_name);
 }
 
 const OiioModule& oiio_module() {

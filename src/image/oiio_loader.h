@@ -14,11 +14,11 @@ struct OiioModule {
     decltype(&drude_oiio_read) read = nullptr;
     decltype(&drude_oiio_release) release = nullptr;
     decltype(&drude_oiio_png) png = nullptr;
+    decltype(&drude_oiio_texture) texture = nullptr;
+    decltype(&drude_oiio_texels) texels = nullptr;
 };
 
-// Where the module is looked for, in this order: the folders of $DRUDE_MODULE_PATH (separated by
-// colons), the program's folder, lib/drude, lib/*/drude and lib64/drude beside the program's
-// folder, and the folder that the build was installed to.
+// Where the module is looked for; see module_candidates().
 std::vector<std::string> oiio_module_candidates();
 
 // The loaded module; from any thread. Throws Error (outside) that names the places searched and

@@ -58,8 +58,8 @@ class CameraRays {
         for (int i = 0; i < 4; ++i) window_[i] = camera.screen_window[i];
         step_x_ = (window_[1] - window_[0]) / width;
         step_y_ = (window_[3] - window_[2]) / height;
-        up_ = glm::normalize(axes_[1]);
-        right_ = glm::normalize(axes_[0]);
+        up_ = glm::vec3(glm::normalize(axes_[1]));
+        right_ = glm::vec3(glm::normalize(axes_[0]));
     }
 
     float handedness() const { return handedness_; }
@@ -95,11 +95,11 @@ class CameraRays {
   private:
     CameraRay ray(const glm::dvec3& from, const glm::dvec3& towards) const {
         const glm::dvec3 o = from == glm::dvec3(0) ? origin_ : origin_ + axes_ * from;
-        const glm::dvec3 d = glm::normalize(axes_ * towards);
+        const glm::vec3 d(glm::normalize(axes_ * towards));
         // Across the ray and the camera's own up; where the ray runs along it, camera x serves.
-        glm::dvec3 across = glm::cross(d, up_);
-        if (glm::dot(across, across) < 1e-12) across = right_ - glm::dot(right_, d) * d;
-        return {glm::vec3(o), glm::vec3(d), glm::vec3(glm::normalize(across))};
+        glm::vec3 across = glm::cross(d, up_);
+        if (glm::dot(across, across) < 1e-12f) across = right_ - glm::dot(right_, d) * d;
+        return {glm::vec3(o), d, glm::normalize(across)};
     }
 
     // Camera space; u, v from 0 to 1 over the whole picture, v downwards. Both mappings have
@@ -116,7 +116,8 @@ class CameraRays {
     CameraKind kind_;
     bool equal_area_;
     glm::dmat3 axes_;
-    glm::dvec3 origin_, up_{0, 1, 0}, right_{1, 0, 0};
+    glm::dvec3 origin_;
+    glm::vec3 up_{0, 1, 0}, right_{1, 0, 0};
     double tangent_, window_[4], step_x_, step_y_;
     double lens_radius_, focal_distance_;
     float handedness_;

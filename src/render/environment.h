@@ -9,10 +9,12 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <string>
 #include <vector>
 
 #include "image/image.h"
+#include "render/cumulative.h"
 
 namespace drude {
 
@@ -26,6 +28,12 @@ class Environment {
 
     // Linear RGB radiance that arrives from world direction d (unit, away from the viewer).
     glm::vec3 radiance(const glm::vec3& d) const;
+    // The same with the density of sample(), which is 0 where it never goes.
+    struct Light {
+        glm::vec3 radiance;
+        float pdf = 0;  // per solid angle
+    };
+    Light light(const glm::vec3& d) const;
 
     struct Sample {
         glm::vec3 d;         // world direction towards the light
@@ -35,22 +43,21 @@ class Environment {
     // Sampled in proportion to luminance less its mean (MIS compensation: Karlik et al. 2019, ACM
     // TOG 38(6)): what lobe sampling finds by itself is left to it. Uniform numbers in [0, 1).
     Sample sample(const glm::vec2& u) const;
-    // The density of sample(), 0 where it never goes.
-    float pdf(const glm::vec3& d) const;
+    float pdf(const glm::vec3& d) const { return light(d).pdf; }
 
     int repaired_texels() const { return repaired_; }
     double mean_luminance() const { return mean_luminance_; }
 
   private:
-    size_t texel(const glm::vec3& light_direction) const;
+    // `l` in light space, of any length.
+    size_t texel(const glm::vec3& l) const;
 
     bool lat_long_;
     int width_, height_;
     glm::mat3 light_from_world_, world_from_light_;  // of determinant +-1
-    std::vector<glm::vec3> texels_;
-    // Cumulative weights: of the rows, and within each row; the last of each is its total.
-    std::vector<float> row_cdf_, column_cdf_;
-    std::vector<float> weight_;  // density of a texel over the unit square
+    std::vector<glm::vec4> texels_;  // radiance, and the density over the unit square
+    CumulativeRows rows_, columns_;
+    std::vector<float> edge_;  // lat-long: cosines between the rows
     int repaired_ = 0;
     double mean_luminance_ = 0;
 };

@@ -54,6 +54,12 @@ class Lights {
     const std::vector<Infinite>& infinite() const { return infinite_; }
     // The density of sample() towards d for an infinite light.
     float infinite_pdf(size_t light, const glm::vec3& d) const;
+    // The same with the picture's radiance, in one look; for lights with a picture.
+    Environment::Light picture_light(size_t light, const glm::vec3& d) const {
+        Environment::Light found = infinite_[light].environment->light(d);
+        found.pdf *= infinite_[light].choice;
+        return found;
+    }
     // The density of sample() for a hit on an area light, seen from `distance` along d.
     float area_pdf(const Hit& hit, const glm::vec3& d, float distance) const;
 

@@ -248,11 +248,17 @@ class Path {
 
     void add_infinite_lights() {
         for (size_t i = 0; i < lights_.infinite().size(); ++i) {
-            const auto& environment = lights_.infinite()[i].environment;
-            const Packet<N> light = environment
-                                        ? tables_.rgb_light(environment->radiance(d_), phase_)
-                                        : tables_.infinite_radiance[i][phase_];
-            const float weight = lobe_pdf_ > 0 ? mis(lobe_pdf_, lights_.infinite_pdf(i, d_)) : 1;
+            Packet<N> light;
+            float pdf = 0;
+            if (lights_.infinite()[i].environment) {
+                const Environment::Light found = lights_.picture_light(i, d_);
+                light = tables_.rgb_light(found.radiance, phase_);
+                pdf = found.pdf;
+            } else {
+                light = tables_.infinite_radiance[i][phase_];
+                pdf = lights_.infinite_pdf(i, d_);
+            }
+            const float weight = lobe_pdf_ > 0 ? mis(lobe_pdf_, pdf) : 1;
             add(seen(beam_, d_, light,
                      polarised_ ? lights_.infinite_polarisation(i, d_) : ArrivingPolarisation{}),
                 light, weight);

@@ -20,10 +20,15 @@
 
 namespace drude {
 
-// Named textures. Until textures are drawn each has one value everywhere.
+// Named textures, and those of them that change over a surface. A texture that is the same
+// everywhere is a constant from the start.
 struct Textures {
-    std::map<std::string, double, std::less<>> numbers;
-    std::map<std::string, DenseSpectrum, std::less<>> spectra;
+    std::map<std::string, NumberValue, std::less<>> numbers;
+    std::map<std::string, SpectrumValue, std::less<>> spectra;
+    std::vector<Texture<NumberValue>> number_textures;
+    std::vector<Texture<SpectrumValue>> spectrum_textures;
+    // How many textures one evaluation visits at most.
+    std::vector<int> number_visits, spectrum_visits;
 };
 
 struct BuildContext {
@@ -58,6 +63,7 @@ Disk build_disk(ParameterList& list);
 Cylinder build_cylinder(ParameterList& list);
 TriangleMesh build_triangle_mesh(ParameterList& list, Messages& messages);
 TriangleMesh build_bilinear_mesh(ParameterList& list, Messages& messages);
+TriangleMesh build_loop_surface(ParameterList& list, Messages& messages);
 TriangleMesh build_ply_mesh(ParameterList& list, BuildContext& context);
 // Drops triangles without area and gives normals of length 0 a direction; Error (user) where no
 // triangle is left.
@@ -77,7 +83,13 @@ ConductorMaterial build_conductor(ParameterList& list, const std::string& prefix
 // `is_spectrum` tells the two kinds, "spectrum" and "float", apart. Enters the texture under
 // `name`.
 void build_texture(const std::string& name, bool is_spectrum, const std::string& type,
-                   ParameterList& list, BuildContext& context);
+                   ParameterList& list, const glm::dmat4& world_from_texture,
+                   BuildContext& context);
+// Texture "imagemap".
+ImageTexture build_image_texture(ParameterList& list, const glm::dmat4& world_from_texture,
+                                 BuildContext& context);
+// "mapping" and what belongs to it.
+TextureMapping build_mapping(ParameterList& list, const glm::dmat4& world_from_texture);
 
 // ---- lights ------------------------------------------------------------------------------------
 

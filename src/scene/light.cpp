@@ -56,6 +56,10 @@ void build_distant(ParameterList& list, const glm::dmat4& world_from_light, Buil
     light.direction = axis_of(list, list.point3("from", {0, 0, 0}), list.point3("to", {0, 0, 1}),
                               world_from_light);
     light.x_axis = glm::normalize(glm::dvec3(world_from_light[0]));
+    // Along its own x it would have no angle zero: there its y serves.
+    if (glm::length(glm::cross(light.x_axis, light.direction)) < 1e-4) {
+        light.x_axis = glm::normalize(glm::dvec3(world_from_light[1]));
+    }
     light.polarisation = read_light_polarisation(list);
     scene.distant_lights.push_back(std::move(light));
 }

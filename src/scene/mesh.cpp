@@ -5,6 +5,7 @@
 
 #include "base/numbers.h"
 #include "scene/builders.h"
+#include "scene/loop_subdivision.h"
 
 namespace drude {
 
@@ -40,15 +41,19 @@ void check_same_count(const ParameterList& list, const std::string& name, size_t
     }
 }
 
-// P, N, uv; tangents and face numbers serve materials that are not modelled.
-TriangleMesh read_vertices(ParameterList& list) {
-    TriangleMesh mesh;
+std::vector<glm::vec3> read_positions(ParameterList& list) {
     const Parameter* positions = list.values("P", ParameterType::point3);
     if (positions == nullptr) {
         user_error_at(list.place(), "{} without \"point3 P\"; expected the positions",
                       list.owner());
     }
-    mesh.positions = triples(*positions);
+    return triples(*positions);
+}
+
+// P, N, uv; tangents and face numbers serve materials that are not modelled.
+TriangleMesh read_vertices(ParameterList& list) {
+    TriangleMesh mesh;
+    mesh.positions = read_positions(list);
     const size_t count = mesh.positions.size();
     if (const Parameter* normals = list.values("N", ParameterType::normal)) {
         mesh.normals = triples(*normals);
@@ -125,6 +130,18 @@ size_t mend_normals(TriangleMesh& mesh) {
     return count;
 }
 
+// Gives every patch vertices of its own, so that each can have the uv of its corners.
+void part_patches(TriangleMesh& mesh, std::vector<unsigned>& indices) {
+    const TriangleMesh shared = std::move(mesh);
+    mesh = {};
+    for (size_t i = 0; i < indices.size(); ++i) {
+        mesh.positions.push_back(shared.positions[indices[i]]);
+        if (!shared.normals.empty()) mesh.normals.push_back(shared.normals[indices[i]]);
+        mesh.uv.emplace_back(i % 2, i / 2 % 2);
+        indices[i] = static_cast<unsigned>(i);
+    }
+}
+
 }  // namespace
 
 void tidy_mesh(TriangleMesh& mesh, const std::string& owner, const Place& place,
@@ -162,10 +179,31 @@ TriangleMesh build_triangle_mesh(ParameterList& list, Messages& messages) {
     return mesh;
 }
 
+TriangleMesh build_loop_surface(ParameterList& list, Messages& messages) {
+    const int levels = list.integer_in("levels", 3, 0, 12);
+    list.text("scheme", "loop");
+    const std::vector<glm::vec3> given = read_positions(list);
+    const std::vector<unsigned> indices = read_indices(list, 3, given.size());
+    const std::vector<glm::dvec3> positions(given.begin(), given.end());
+    std::vector<glm::uvec3> triangles;
+    for (size_t i = 0; i < indices.size(); i += 3) {
+        triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+    }
+    TriangleMesh mesh;
+    try {
+        mesh = subdivide_loop(positions, triangles, levels);
+    } catch (const Error& error) {
+        throw Error(error.cause(), list.place_of("indices"), list.owner() + ": " + error.message());
+    }
+    tidy_mesh(mesh, list.owner(), list.place(), messages);
+    return mesh;
+}
+
 TriangleMesh build_bilinear_mesh(ParameterList& list, Messages& messages) {
     TriangleMesh mesh = read_vertices(list);
     // pbrt numbers the corners (0,0), (1,0), (0,1), (1,1).
-    const std::vector<unsigned> indices = read_indices(list, 4, mesh.positions.size());
+    std::vector<unsigned> indices = read_indices(list, 4, mesh.positions.size());
+    if (mesh.uv.empty()) part_patches(mesh, indices);
     bool is_flat = true;
     for (size_t i = 0; i < indices.size(); i += 4) {
         const glm::uvec3 first(indices[i], indices[i + 1], indices[i + 3]);

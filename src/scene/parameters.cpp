@@ -88,10 +88,29 @@ std::string ParameterList::text(std::string_view name, const std::string& otherw
     return parameter ? parameter->strings[0] : otherwise;
 }
 
-glm::dvec3 ParameterList::point3(std::string_view name, const glm::dvec3& otherwise) {
-    const Parameter* parameter = single(name, ParameterType::point3, 3);
+glm::dvec3 ParameterList::triple(std::string_view name, ParameterType type,
+                                 const glm::dvec3& otherwise) {
+    const Parameter* parameter = single(name, type, 3);
     if (parameter == nullptr) return otherwise;
     return {parameter->numbers[0], parameter->numbers[1], parameter->numbers[2]};
+}
+
+glm::dvec3 ParameterList::point3(std::string_view name, const glm::dvec3& otherwise) {
+    return triple(name, ParameterType::point3, otherwise);
+}
+
+glm::dvec3 ParameterList::vector3(std::string_view name, const glm::dvec3& otherwise) {
+    return triple(name, ParameterType::vector3, otherwise);
+}
+
+std::string ParameterList::choice(std::string_view name, const std::string& otherwise,
+                                  const std::vector<std::string>& words) {
+    std::string word = text(name, otherwise);
+    if (std::find(words.begin(), words.end(), word) == words.end()) {
+        user_error_at(find(name)->place_of(0), "{}: {} is '{}'{}; expected one of: {}", owner_,
+                      name, shown(word), did_you_mean(word, words), fmt::join(words, ", "));
+    }
+    return word;
 }
 
 double ParameterList::number_in(std::string_view name, double otherwise, double lowest,

@@ -80,6 +80,10 @@ class ParameterList {
     bool boolean(std::string_view name, bool otherwise);
     std::string text(std::string_view name, const std::string& otherwise);
     glm::dvec3 point3(std::string_view name, const glm::dvec3& otherwise);
+    glm::dvec3 vector3(std::string_view name, const glm::dvec3& otherwise);
+    // One of some words; Error (user) with the nearest where it is none of them.
+    std::string choice(std::string_view name, const std::string& otherwise,
+                       const std::vector<std::string>& words);
     // The same with bounds: Error (user) where the number is not in [lowest, highest].
     double number_in(std::string_view name, double otherwise, double lowest, double highest);
     int integer_in(std::string_view name, int otherwise, int lowest, int highest);
@@ -98,6 +102,7 @@ class ParameterList {
   private:
     Parameter* find(std::string_view name);
     const Parameter* single(std::string_view name, ParameterType type, size_t components);
+    glm::dvec3 triple(std::string_view name, ParameterType type, const glm::dvec3& otherwise);
     [[noreturn]] void unknown(const Parameter& parameter, const std::vector<std::string>& known);
 
     std::string owner_;

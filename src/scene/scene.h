@@ -100,7 +100,8 @@ struct InfiniteLight {
 struct DistantLight {
     DenseSpectrum irradiance{};  // normal irradiance, scale included
     glm::dvec3 direction;        // in which its light travels, world space, unit
-    glm::dvec3 x_axis{1, 0, 0};  // the light's x axis in world space
+    // The light's x axis in world space, unit; its y axis where the light travels along x.
+    glm::dvec3 x_axis{1, 0, 0};
     LightPolarisation polarisation;
     Place place;
 };

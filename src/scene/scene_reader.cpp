@@ -264,6 +264,8 @@ Scene SceneReader::finish(const Place& end) {
     }
     resolve_materials();
     expand_instances();
+    scene_.number_textures = std::move(textures_.number_textures);
+    scene_.spectrum_textures = std::move(textures_.spectrum_textures);
     messages_.write_to(scene_);
     scene_.sha256 = assets_.digest();
     return std::move(scene_);

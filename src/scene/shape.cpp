@@ -13,6 +13,7 @@ std::optional<ShapeGeometry> build_geometry(const std::string& name, ParameterLi
     if (name == "cylinder") return build_cylinder(list);
     if (name == "trianglemesh") return build_triangle_mesh(list, context.messages);
     if (name == "bilinearmesh") return build_bilinear_mesh(list, context.messages);
+    if (name == "loopsubdiv") return build_loop_surface(list, context.messages);
     if (name == "plymesh") return build_ply_mesh(list, context);
     return {};
 }

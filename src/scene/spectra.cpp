@@ -45,37 +45,57 @@ RGB rgb_of(const Parameter& parameter) {
     return {parameter.numbers[0], parameter.numbers[1], parameter.numbers[2]};
 }
 
+template <class Value>
+const Value& named_texture(const Parameter& parameter,
+                           const std::map<std::string, Value, std::less<>>& textures,
+                           std::string_view kind) {
+    const std::string& name = parameter.strings[0];
+    const auto found = textures.find(name);
+    if (found != textures.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& entry : textures) names.push_back(entry.first);
+    user_error_at(parameter.place_of(0),
+                  "there is no {} texture '{}'{}; expected one that is defined before", kind,
+                  shown(name), did_you_mean(name, names));
+}
+
+void stand_in_for_texture(const Parameter& parameter, BuildContext& context) {
+    context.messages.stand_in(
+        parameter.place,
+        fmt::format("'{}' cannot change over a surface here; one value that is typical of the "
+                    "texture '{}' stands in",
+                    parameter.name, shown(parameter.strings[0])));
+}
+
 }  // namespace
 
-DenseSpectrum matter_spectrum(const Parameter& parameter, BuildContext& context) {
+SpectrumValue matter_value(const Parameter& parameter, BuildContext& context) {
     switch (parameter.type) {
         case ParameterType::rgb:
-            return rgb_reflectance(rgb_of(parameter));
+            return {rgb_reflectance(rgb_of(parameter))};
         case ParameterType::blackbody:
-            return blackbody_of(parameter);
-        case ParameterType::texture: {
-            const auto found = context.textures.spectra.find(parameter.strings[0]);
-            if (found != context.textures.spectra.end()) return found->second;
-            std::vector<std::string> names;
-            for (const auto& entry : context.textures.spectra) names.push_back(entry.first);
-            user_error_at(parameter.place_of(0),
-                          "there is no spectrum texture '{}'{}; expected "
-                          "one that is defined before",
-                          shown(parameter.strings[0]), did_you_mean(parameter.strings[0], names));
-        }
+            return {blackbody_of(parameter)};
+        case ParameterType::texture:
+            return named_texture(parameter, context.textures.spectra, "spectrum");
         default: {
             const SampledTable table = sampled_table(parameter, context);
             note_range(table, parameter.place, context.messages);
-            return resample(table.wavelength_nm, table.values);
+            return {resample(table.wavelength_nm, table.values)};
         }
     }
 }
 
-DenseSpectrum reflectance(ParameterList& list, const std::string& name, double otherwise,
-                          BuildContext& context) {
+DenseSpectrum matter_spectrum(const Parameter& parameter, BuildContext& context) {
+    const SpectrumValue value = matter_value(parameter, context);
+    if (value.texture >= 0) stand_in_for_texture(parameter, context);
+    return value.constant;
+}
+
+SpectrumValue reflectance_value(ParameterList& list, const std::string& name, double otherwise,
+                                BuildContext& context) {
     const Parameter* parameter =
         list.any_of(name, {ParameterType::rgb, ParameterType::spectrum, ParameterType::texture});
-    if (parameter == nullptr) return constant_spectrum(otherwise);
+    if (parameter == nullptr) return {constant_spectrum(otherwise)};
     if (parameter->type == ParameterType::rgb) {
         const RGB rgb = rgb_of(*parameter);
         for (size_t i = 0; i < 3; ++i) {
@@ -85,16 +105,25 @@ DenseSpectrum reflectance(ParameterList& list, const std::string& name, double o
             }
         }
     }
-    DenseSpectrum spectrum = matter_spectrum(*parameter, context);
-    for (double& value : spectrum) {
+    SpectrumValue spectrum = matter_value(*parameter, context);
+    for (double& value : spectrum.constant) {
         // The bases sum to 1 up to rounding only.
-        if (!(value >= -1e-6 && value <= 1 + 1e-6)) {
+        if (spectrum.texture < 0 && !(value >= -1e-6 && value <= 1 + 1e-6)) {
             user_error_at(parameter->place, "{}: {} reaches {}; expected 0 to 1", list.owner(),
                           name, format_double(value));
         }
         value = std::clamp(value, 0.0, 1.0);
     }
     return spectrum;
+}
+
+DenseSpectrum reflectance(ParameterList& list, const std::string& name, double otherwise,
+                          BuildContext& context) {
+    const SpectrumValue value = reflectance_value(list, name, otherwise, context);
+    if (value.texture >= 0) {
+        stand_in_for_texture(*list.any_of(name, {ParameterType::texture}), context);
+    }
+    return value.constant;
 }
 
 DenseSpectrum light_spectrum(ParameterList& list, const std::string& name, BuildContext& context) {
@@ -140,18 +169,21 @@ DenseSpectrum light_spectrum(ParameterList& list, const std::string& name, Build
     return scaled(spectrum, 1 / luminance);
 }
 
-double number_or_texture(ParameterList& list, const std::string& name, double otherwise,
+NumberValue number_value(ParameterList& list, const std::string& name, double otherwise,
                          BuildContext& context) {
     const Parameter* parameter = list.any_of(name, {ParameterType::number, ParameterType::texture});
-    if (parameter == nullptr) return otherwise;
-    if (parameter->type == ParameterType::number) return list.number(name, otherwise);
-    const auto found = context.textures.numbers.find(parameter->strings[0]);
-    if (found != context.textures.numbers.end()) return found->second;
-    std::vector<std::string> names;
-    for (const auto& entry : context.textures.numbers) names.push_back(entry.first);
-    user_error_at(parameter->place_of(0),
-                  "there is no float texture '{}'{}; expected one that is defined before",
-                  shown(parameter->strings[0]), did_you_mean(parameter->strings[0], names));
+    if (parameter == nullptr) return {otherwise};
+    if (parameter->type == ParameterType::number) return {list.number(name, otherwise)};
+    return named_texture(*parameter, context.textures.numbers, "float");
+}
+
+double number_or_texture(ParameterList& list, const std::string& name, double otherwise,
+                         BuildContext& context) {
+    const NumberValue value = number_value(list, name, otherwise, context);
+    if (value.texture >= 0) {
+        stand_in_for_texture(*list.any_of(name, {ParameterType::texture}), context);
+    }
+    return value.constant;
 }
 
 }  // namespace drude

@@ -30,10 +30,17 @@ std::optional<MetalSpectrum> metal_spectrum(const std::string& name, const Place
 SampledTable sampled_table(const Parameter& parameter, BuildContext& context);
 
 // A parameter that describes a property of matter, on the project's grid: rgb through the basis of
-// Mallett and Yuksel (unbounded), blackbody with its peak at 1, textures by their value.
+// Mallett and Yuksel (unbounded), blackbody with its peak at 1, or a texture.
+SpectrumValue matter_value(const Parameter& parameter, BuildContext& context);
+// The same where it cannot change over a surface: a texture that does gives a message, and a value
+// that is typical of it.
 DenseSpectrum matter_spectrum(const Parameter& parameter, BuildContext& context);
 
-// A reflectance in [0, 1]; `otherwise` everywhere where the parameter is absent.
+// A reflectance; `otherwise` everywhere where the parameter is absent. What is given as a constant
+// is in [0, 1], else Error (user); what a texture gives is held there when it is drawn.
+SpectrumValue reflectance_value(ParameterList& list, const std::string& name, double otherwise,
+                                BuildContext& context);
+// The same where it cannot change over a surface.
 DenseSpectrum reflectance(ParameterList& list, const std::string& name, double otherwise,
                           BuildContext& context);
 
@@ -45,6 +52,9 @@ DenseSpectrum reflectance(ParameterList& list, const std::string& name, double o
 DenseSpectrum light_spectrum(ParameterList& list, const std::string& name, BuildContext& context);
 
 // A "float" or a "texture" of floats.
+NumberValue number_value(ParameterList& list, const std::string& name, double otherwise,
+                         BuildContext& context);
+// The same where it cannot change over a surface.
 double number_or_texture(ParameterList& list, const std::string& name, double otherwise,
                          BuildContext& context);
 

@@ -1,82 +1,232 @@
-// Texture: until textures are drawn, each is the one value that stands for it.
+// Texture: which builder serves, and what is the same everywhere is made a constant at once.
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
 #include "scene/builders.h"
 #include "scene/spectra.h"
+#include "scene/transforms.h"
 #include "scene/vocabulary.h"
 
 namespace drude {
 
 namespace {
 
-// A texture of either kind, so that one piece of code combines both.
-using Value = std::variant<double, DenseSpectrum>;
+// A texture of textures of textures doubles its work at every step; this keeps it finite.
+constexpr int most_visits = 4096;
 
-Value operand(ParameterList& list, const std::string& name, double otherwise, bool is_spectrum,
-              BuildContext& context) {
-    if (!is_spectrum) return number_or_texture(list, name, otherwise, context);
-    const Parameter* parameter =
-        list.any_of(name, {ParameterType::rgb, ParameterType::spectrum, ParameterType::blackbody,
-                           ParameterType::texture});
-    if (parameter == nullptr) return constant_spectrum(otherwise);
-    return matter_spectrum(*parameter, context);
+// One kind of value, so that one piece of code builds both.
+template <class Value>
+struct Kind;
+
+template <>
+struct Kind<NumberValue> {
+    static constexpr std::string_view name = "float";
+    static NumberValue of(double value) { return {value}; }
+    static NumberValue constant(ParameterList& list, const std::string& name, double otherwise,
+                                BuildContext&) {
+        return {list.number(name, otherwise)};
+    }
+    static NumberValue operand(ParameterList& list, const std::string& name, double otherwise,
+                               BuildContext& context) {
+        return number_value(list, name, otherwise, context);
+    }
+    static void add(NumberValue& sum, double weight, const NumberValue& value) {
+        sum.constant += weight * value.constant;
+    }
+    static auto& names(Textures& textures) { return textures.numbers; }
+    static auto& list(Textures& textures) { return textures.number_textures; }
+    static auto& visits(Textures& textures) { return textures.number_visits; }
+};
+
+template <>
+struct Kind<SpectrumValue> {
+    static constexpr std::string_view name = "spectrum";
+    static SpectrumValue of(double value) { return {constant_spectrum(value)}; }
+    static SpectrumValue given(ParameterList& list, const std::string& name, double otherwise,
+                               const std::vector<ParameterType>& types, BuildContext& context) {
+        const Parameter* parameter = list.any_of(name, types);
+        return parameter == nullptr ? of(otherwise) : matter_value(*parameter, context);
+    }
+    static SpectrumValue constant(ParameterList& list, const std::string& name, double otherwise,
+                                  BuildContext& context) {
+        return given(list, name, otherwise,
+                     {ParameterType::rgb, ParameterType::spectrum, ParameterType::blackbody},
+                     context);
+    }
+    static SpectrumValue operand(ParameterList& list, const std::string& name, double otherwise,
+                                 BuildContext& context) {
+        return given(list, name, otherwise,
+                     {ParameterType::rgb, ParameterType::spectrum, ParameterType::blackbody,
+                      ParameterType::texture},
+                     context);
+    }
+    static void add(SpectrumValue& sum, double weight, const SpectrumValue& value) {
+        for (size_t i = 0; i < sum.constant.size(); ++i) {
+            sum.constant[i] += weight * value.constant[i];
+        }
+    }
+    static auto& names(Textures& textures) { return textures.spectra; }
+    static auto& list(Textures& textures) { return textures.spectrum_textures; }
+    static auto& visits(Textures& textures) { return textures.spectrum_visits; }
+};
+
+// The constants of some values, weighted.
+template <class Value>
+Value typical(std::initializer_list<std::pair<double, const Value*>> parts) {
+    Value sum = Kind<Value>::of(0);
+    for (const auto& part : parts) Kind<Value>::add(sum, part.first, *part.second);
+    return sum;
 }
 
-// a (1 - t) + b t
-Value blend(const Value& a, const Value& b, double t) {
-    if (const double* number = std::get_if<double>(&a)) {
-        return *number * (1 - t) + std::get<double>(b) * t;
-    }
-    DenseSpectrum result = std::get<DenseSpectrum>(a);
-    const DenseSpectrum& other = std::get<DenseSpectrum>(b);
-    for (size_t i = 0; i < result.size(); ++i) result[i] = result[i] * (1 - t) + other[i] * t;
-    return result;
-}
+template <class Value>
+class TextureBuilder {
+  public:
+    TextureBuilder(const std::string& name, const std::string& type, ParameterList& list,
+                   const glm::dmat4& world_from_texture, BuildContext& context)
+        : name_(name),
+          type_(type),
+          list_(list),
+          world_from_texture_(world_from_texture),
+          context_(context) {}
 
-Value constant(double value, bool is_spectrum) {
-    if (is_spectrum) return constant_spectrum(value);
-    return value;
-}
+    void build() {
+        Textures& textures = context_.textures;
+        const Value value = read();
+        list_.finish(known_parameters("Texture", type_), context_.messages);
+        if (!Kind<Value>::names(textures).emplace(name_, value).second) {
+            user_error_at(list_.place(), "the texture '{}' is defined twice; expected another name",
+                          shown(name_));
+        }
+    }
 
-Value texture_value(const std::string& type, bool is_spectrum, ParameterList& list,
-                    BuildContext& context) {
-    if (type == "constant") return operand(list, "value", 1, is_spectrum, context);
-    if (type == "scale") {
-        const Value texture = operand(list, "tex", 1, is_spectrum, context);
-        const double scale = number_or_texture(list, "scale", 1, context);
-        return blend(constant(0, is_spectrum), texture, scale);
+  private:
+    Value read() {
+        if (type_ == "constant") return Kind<Value>::constant(list_, "value", 1, context_);
+        if (type_ == "scale") return read_scale();
+        if (type_ == "mix") return read_mix();
+        if (type_ == "imagemap") {
+            ImageTexture image = build_image_texture(list_, world_from_texture_, context_);
+            const double middle = image.invert ? 1 - 0.5 * image.scale : 0.5 * image.scale;
+            return add(std::move(image), Kind<Value>::of(middle), {});
+        }
+        if (type_ == "checkerboard") return read_checkerboard();
+        if (type_ == "bilerp") return read_bilerp();
+        if (type_ == "directionmix") return read_direction_mix();
+        context_.messages.stand_in(
+            list_.place(),
+            fmt::format("Texture \"{}\" is not drawn; a constant 0.5 stands in", type_));
+        list_.ignore(known_parameters("Texture", type_));
+        return Kind<Value>::of(0.5);
     }
-    if (type == "mix") {
-        const Value first = operand(list, "tex1", 0, is_spectrum, context);
-        const Value second = operand(list, "tex2", 1, is_spectrum, context);
-        return blend(first, second, number_or_texture(list, "amount", 0.5, context));
+
+    Value operand(const std::string& name, double otherwise) {
+        return Kind<Value>::operand(list_, name, otherwise, context_);
     }
-    const auto stand_in = [&](std::string_view what) {
-        context.messages.stand_in(
-            list.place(), fmt::format("Texture \"{}\" is not drawn; {} stands in", type, what));
-    };
-    if (type == "checkerboard" || type == "directionmix") {
-        const Value first = operand(list, "tex1", 1, is_spectrum, context);
-        const Value second = operand(list, "tex2", 0, is_spectrum, context);
-        stand_in("the mean of its two parts");
-        list.ignore(known_parameters("Texture", type));
-        return blend(first, second, 0.5);
+
+    Value read_scale() {
+        ScaleTexture<Value> scale{operand("tex", 1), number_value(list_, "scale", 1, context_)};
+        const Value middle = typical<Value>({{scale.scale.constant, &scale.texture}});
+        if (scale.texture.texture < 0 && scale.scale.texture < 0) return middle;
+        const int visits = visits_of(scale.texture) + visits_of(scale.scale);
+        return add(std::move(scale), middle, visits);
     }
-    stand_in("a constant 0.5");
-    list.ignore(known_parameters("Texture", type));
-    return constant(0.5, is_spectrum);
-}
+
+    Value read_mix() {
+        MixTexture<Value> mix{operand("tex1", 0), operand("tex2", 1),
+                              number_value(list_, "amount", 0.5, context_)};
+        const double t = mix.amount.constant;
+        const Value middle = typical<Value>({{1 - t, &mix.first}, {t, &mix.second}});
+        if (mix.amount.texture < 0) {
+            if (mix.first.texture < 0 && mix.second.texture < 0) return middle;
+            if (t == 0) return mix.first;
+            if (t == 1) return mix.second;
+        }
+        const int visits = visits_of(mix.first) + visits_of(mix.second) + visits_of(mix.amount);
+        return add(std::move(mix), middle, visits);
+    }
+
+    Value read_checkerboard() {
+        CheckerboardTexture<Value> board;
+        board.dimension = list_.integer_in("dimension", 2, 2, 3);
+        board.first = operand("tex1", 1);
+        board.second = operand("tex2", 0);
+        if (board.dimension == 2) {
+            board.mapping = build_mapping(list_, world_from_texture_);
+        } else {
+            board.mapping.texture_from_world = glm::inverse(world_from_texture_);
+        }
+        const Value middle = typical<Value>({{0.5, &board.first}, {0.5, &board.second}});
+        const int visits = visits_of(board.first) + visits_of(board.second);
+        return add(std::move(board), middle, visits);
+    }
+
+    Value read_bilerp() {
+        BilerpTexture<Value> bilerp;
+        bilerp.mapping = build_mapping(list_, world_from_texture_);
+        bilerp.v00 = Kind<Value>::constant(list_, "v00", 0, context_);
+        bilerp.v01 = Kind<Value>::constant(list_, "v01", 1, context_);
+        bilerp.v10 = Kind<Value>::constant(list_, "v10", 0, context_);
+        bilerp.v11 = Kind<Value>::constant(list_, "v11", 1, context_);
+        const Value middle = typical<Value>(
+            {{0.25, &bilerp.v00}, {0.25, &bilerp.v01}, {0.25, &bilerp.v10}, {0.25, &bilerp.v11}});
+        return add(std::move(bilerp), middle, 0);
+    }
+
+    Value read_direction_mix() {
+        DirectionMixTexture<Value> mix{operand("tex1", 0), operand("tex2", 1), {0, 1, 0}};
+        const glm::dvec3 own = list_.vector3("dir", {0, 1, 0});
+        const glm::dvec3 direction = transform_vector(world_from_texture_, own);
+        const double length = glm::length(direction);
+        if (!(length > 0) || !std::isfinite(length)) {
+            user_error_at(list_.place_of("dir"), "{}: dir has no direction; expected a vector",
+                          list_.owner());
+        }
+        mix.direction = direction / length;
+        const Value middle = typical<Value>({{0.5, &mix.first}, {0.5, &mix.second}});
+        const int visits = visits_of(mix.first) + visits_of(mix.second);
+        return add(std::move(mix), middle, visits);
+    }
+
+    int visits_of(const NumberValue& value) const {
+        return value.texture < 0 ? 0 : context_.textures.number_visits[value.texture];
+    }
+    int visits_of(const SpectrumValue& value) const {
+        return value.texture < 0 ? 0 : context_.textures.spectrum_visits[value.texture];
+    }
+
+    // Enters a texture that visits that many others; `middle` is its constant.
+    template <class Any>
+    Value add(Any&& texture, Value middle, int visits) {
+        if (visits >= most_visits) {
+            user_error_at(list_.place(),
+                          "the texture '{}' is made of {} textures, counted once for every use; "
+                          "expected fewer than {}",
+                          shown(name_), visits, most_visits);
+        }
+        auto& all = Kind<Value>::list(context_.textures);
+        middle.texture = static_cast<int>(all.size());
+        all.emplace_back(std::forward<Any>(texture));
+        Kind<Value>::visits(context_.textures).push_back(visits + 1);
+        return middle;
+    }
+
+    const std::string& name_;
+    const std::string& type_;
+    ParameterList& list_;
+    const glm::dmat4& world_from_texture_;
+    BuildContext& context_;
+};
 
 }  // namespace
 
 void build_texture(const std::string& name, bool is_spectrum, const std::string& type,
-                   ParameterList& list, BuildContext& context) {
-    const Value value = texture_value(type, is_spectrum, list, context);
-    list.finish(known_parameters("Texture", type), context.messages);
-    const bool added =
-        is_spectrum ? context.textures.spectra.emplace(name, std::get<DenseSpectrum>(value)).second
-                    : context.textures.numbers.emplace(name, std::get<double>(value)).second;
-    if (!added) {
-        user_error_at(list.place(), "the texture '{}' is defined twice; expected another name",
-                      shown(name));
+                   ParameterList& list, const glm::dmat4& world_from_texture,
+                   BuildContext& context) {
+    if (is_spectrum) {
+        TextureBuilder<SpectrumValue>(name, type, list, world_from_texture, context).build();
+    } else {
+        TextureBuilder<NumberValue>(name, type, list, world_from_texture, context).build();
     }
 }
 

@@ -65,7 +65,7 @@ void SceneReader::texture(const std::string& name, bool is_spectrum, const std::
                           ParameterList list) {
     require_world(list.place(), "Texture");
     add_defaults(list, "texture");
-    build_texture(name, is_spectrum, type, list, context_);
+    build_texture(name, is_spectrum, type, list, state_.ctm, context_);
 }
 
 void SceneReader::light(const std::string& name, ParameterList list) {

@@ -80,20 +80,6 @@ const FittedParameter& parameter(const FitResult& fit, const std::string& name) 
     return *found;
 }
 
-TEST(FilmAverage, NodesAverageFringesExactly) {
-    // The mean of cos(phase x) over a standard normal is exp(-phase^2/2).
-    for (const double phase : {0.5, 2.0, 6.0}) {
-        const GaussianNodes nodes = gaussian_nodes(phase);
-        for (const double turn : {phase, 2 * phase}) {
-            double mean = 0;
-            for (size_t i = 0; i < nodes.x.size(); ++i) {
-                mean += nodes.weight[i] * std::cos(turn * nodes.x[i]);
-            }
-            EXPECT_NEAR(mean, std::exp(-turn * turn / 2), 2e-5) << phase << ", " << turn;
-        }
-    }
-}
-
 TEST(FilmAverage, SpreadOfTheThicknessComesBack) {
     Sample sample;
     sample.spread_nm = 30;

@@ -34,6 +34,7 @@ Material full_material() {
         FilmLayer layer;
         layer.constants = published_set(set);
         layer.thickness_nm = 3000.0 / 7;
+        if (material.layers.empty()) layer.thickness_spread_nm = 100.0 / 7;
         material.layers.push_back(layer);
     }
     material.lobe = Lobe::gaussian;
@@ -70,7 +71,8 @@ void expect_same(const Material& a, const Material& b) {
     ASSERT_EQ(a.layers.size(), b.layers.size());
     for (size_t i = 0; i < a.layers.size(); ++i) {
         expect_same(a.layers[i].constants, b.layers[i].constants);
-        expect_same_bits({a.layers[i].thickness_nm}, {b.layers[i].thickness_nm});
+        expect_same_bits({a.layers[i].thickness_nm, a.layers[i].thickness_spread_nm},
+                         {b.layers[i].thickness_nm, b.layers[i].thickness_spread_nm});
     }
     EXPECT_EQ(a.lobe, b.lobe);
     EXPECT_EQ(a.masking, b.masking);
@@ -274,6 +276,9 @@ TEST(Material, ValuesOutOfRangeAreNamed) {
                    {"cu.json:4:12: ", "no Smith masking"});
     expect_message(record(", \"layers\": [{\"set\": \"Al2O3\", \"thickness_nm\":\n-3}]"),
                    {"cu.json:4:1: ", "'layers[0].thickness_nm' is -3"});
+    expect_message(record(", \"layers\": [{\"set\": \"Al2O3\", \"thickness_nm\": 30, "
+                          "\"thickness_spread_nm\":\n7}]"),
+                   {"cu.json:4:1: ", "'layers[0].thickness_spread_nm' is 7, expected 0 to 6"});
     const std::string start =
         "{\"format\": \"drude-material/1\", \"name\": \"a\", \"substrate\":\n";
     expect_message(start + "{\"wavelength_nm\": [500, 400], \"n\": [1, 2], \"k\": [0, 0]}}",

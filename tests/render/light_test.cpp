@@ -6,7 +6,9 @@
 #include "materials/scalar.h"
 #include "render/geometry.h"
 #include "render/lights.h"
+#include "render/reference_light.h"
 #include "render/sampler.h"
+#include "temporary_folder.h"
 #include "test_scenes.h"
 
 namespace drude {
@@ -76,6 +78,96 @@ TEST(Lights, ADistantLightFallsWithTheCosine) {
                 "\"point3 to\" [0 0 0]\n",  // from below: nothing
             8192);
         expect_measured(measured, 0.5 * 2 * std::cos(t) / pi);
+    }
+}
+
+TEST(Lights, APointLightFallsWithTheSquareAndTheCosine) {
+    for (const glm::dvec3& at : {glm::dvec3(0, 0, 2), glm::dvec3(0.5, -1, 0.7)}) {
+        const double d2 = glm::dot(at, at);
+        const std::string from = fmt::format("\"point3 from\" [{} {} {}]", at.x, at.y, at.z);
+        const double expected = 0.5 * at.z / (d2 * std::sqrt(d2)) / pi;
+        expect_measured(floor_radiance("LightSource \"point\" \"rgb I\" [3 3 3] " + from, 4096),
+                        3 * expected);
+        expect_measured(floor_radiance("LightSource \"point\" \"float power\" 50 " + from, 4096),
+                        50 / (4 * pi) * expected);
+        // Below the floor, and behind a disk.
+        EXPECT_EQ(floor_radiance("Scale 1 1 -1 LightSource \"point\" " + from, 64).value, 0);
+        EXPECT_EQ(floor_radiance("LightSource \"point\" " + from +
+                                     fmt::format(" Translate {} {} {} Shape \"disk\" "
+                                                 "\"float radius\" 0.01",
+                                                 at.x / 2, at.y / 2, at.z / 2),
+                                 64)
+                      .value,
+                  0);
+    }
+}
+
+// The floor's point is at an angle from the spot's axis that runs from inside the falloff to
+// outside; and all of its light together is its power.
+TEST(Lights, ASpotFallsOffByASmoothStepOfTheCosine) {
+    const double end = 40, start = 25;
+    for (const double angle : {0.0, 20.0, 28.0, 33.0, 39.0, 41.0, 120.0}) {
+        const double low = std::cos(end * degree), high = std::cos(start * degree);
+        const double t = std::clamp((std::cos(angle * degree) - low) / (high - low), 0.0, 1.0);
+        const double falloff = t * t * (3 - 2 * t);
+        const Measured measured = floor_radiance(
+            fmt::format("LightSource \"spot\" \"rgb I\" [2 2 2] \"point3 from\" [0 0 2] "
+                        "\"point3 to\" [0 {} {}] \"float coneangle\" {} "
+                        "\"float conedeltaangle\" {}\n",
+                        std::sin(angle * degree), 2 - std::cos(angle * degree), end, end - start),
+            4096);
+        if (falloff > 0) {
+            expect_measured(measured, 0.5 * 2 * falloff / 4 / pi);
+        } else {
+            EXPECT_EQ(measured.value, 0);
+        }
+    }
+    const Scene scene = parse_scene(
+        "WorldBegin Rotate 30 1 1 0 LightSource \"spot\" \"float power\" 70 \"float coneangle\" 50 "
+        "\"float conedeltaangle\" 20 \"point3 from\" [1 2 3] \"point3 to\" [2 2 -3]",
+        "spot.pbrt");
+    const PointLight& spot = scene.point_lights.at(0);
+    double sum = 0;
+    for (int i = 0; i < 400; ++i) {
+        for (int j = 0; j < 400; ++j) {
+            const double z = (i + 0.5) / 200 - 1, phi = (j + 0.5) / 200 * pi;
+            const double r = std::sqrt(1 - z * z);
+            sum += intensity_towards(
+                       spot, spot.position + glm::dvec3(r * std::cos(phi), r * std::sin(phi), z),
+                       550) *
+                   4 * pi / 160000;
+        }
+    }
+    EXPECT_NEAR(sum / spectrum_at(spot.intensity, 550) * spectrum_to_xyz(spot.intensity)[1], 70,
+                0.05);
+}
+
+// A picture's illuminance is what an upward patch under it receives.
+TEST(Lights, APictureIsScaledToItsIlluminance) {
+    for (const int width : {16, 8}) {
+        TemporaryFolder folder;
+        Image image;
+        image.width = width;
+        image.height = 8;
+        for (const char* name : {"R", "G", "B"}) {
+            Channel& channel = image.add(name);
+            for (size_t i = 0; i < channel.data.size(); ++i) {
+                channel.data[i] = static_cast<float>(i % 7 + (*name == 'G' ? 1 : 0));
+            }
+        }
+        write_exr(folder.file("sky.exr"), image, Compression::none);
+        const Scene scene = parse_scene(
+            "LookAt 3 0 0.6  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 0.01\n"
+            "Film \"rgb\" \"integer xresolution\" 1 \"integer yresolution\" 1\n"
+            "PixelFilter \"box\"\nIntegrator \"path\" \"integer maxdepth\" 1\nWorldBegin\n"
+            "LightSource \"infinite\" \"string filename\" \"sky.exr\" \"float illuminance\" 5\n"
+            "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\nShape \"disk\"\n",
+            folder.file("sky.pbrt"));
+        const RenderResult result = render_quietly(scene, 16384);
+        const double y =
+            rgb_to_xyz({result.image.find("R")->data[0], result.image.find("G")->data[0],
+                        result.image.find("B")->data[0]})[1];
+        EXPECT_NEAR(y, 0.5 * 5 / pi, 0.005) << width;
     }
 }
 

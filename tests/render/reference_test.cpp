@@ -142,6 +142,8 @@ const char* zoo =
     "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
     "PixelFilter \"box\"\nIntegrator \"path\" \"integer maxdepth\" 3\nWorldBegin\n"
     "LightSource \"distant\" \"rgb L\" [0.3 0.3 0.3] \"point3 from\" [1 -2 3]\n"
+    "LightSource \"point\" \"rgb I\" [0.5 0.5 1] \"point3 from\" [-2 -1.5 2]\n"
+    "LightSource \"spot\" \"rgb I\" [4 2 2] \"point3 from\" [2 2 3] \"point3 to\" [0 0 0]\n"
     "Material \"diffuse\" \"rgb reflectance\" [0.3 0.5 0.7]\n"
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
     "  \"point3 P\" [-3 -3 0  3 -3 0  3 3 0  -3 3 0]\n"

@@ -75,8 +75,8 @@ TEST(Corpus, Version4ScenesStopAtTheirMissingFilesOnly) {
     const std::string of_orb = message_of(orb);
     EXPECT_TRUE(contains(of_orb, "lte-orb-silver.pbrt:40:9: scene file not found")) << of_orb;
     const std::string of_gold = message_of(gold);
-    EXPECT_TRUE(contains(of_gold, "spectrum file not found") &&
-                contains(of_gold, "killeroo-gold.pbrt:76:26: "))
+    EXPECT_TRUE(contains(of_gold, "picture of a texture not found") &&
+                contains(of_gold, "killeroo-gold.pbrt:43:9: "))
         << of_gold;
 }
 

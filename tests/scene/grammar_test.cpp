@@ -73,10 +73,12 @@ TEST(Grammar, SettingsAreRead) {
     EXPECT_EQ(scene.filter.c, 1.0 / 3);
     EXPECT_EQ(scene.max_depth, 33);
     EXPECT_EQ(scene.camera.screen_window[2], -3);
-    EXPECT_TRUE(warns(scene, "t.pbrt:8:57: Camera \"perspective\": lensradius is not modelled"));
+    EXPECT_EQ(scene.camera.lens_radius, 0.1);
+    EXPECT_EQ(scene.camera.focal_distance, 1e6);
+    EXPECT_TRUE(scene.film.gbuffer);
     EXPECT_TRUE(warns(scene, "'savefp16' is known to pbrt-v4 and has no effect"));
     EXPECT_TRUE(warns(scene, "Sampler \"stratified\": the project's own"));
-    EXPECT_EQ(scene.stand_ins.size(), 2u);
+    EXPECT_EQ(scene.stand_ins.size(), 1u);
 }
 
 TEST(Grammar, ThePortraitFilmHasItsShorterSideFromMinusOneToOne) {

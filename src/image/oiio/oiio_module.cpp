@@ -2,11 +2,14 @@
 #include "image/oiio/oiio_module.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cstdlib>
+#include <deque>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -67,6 +70,77 @@ std::string encode(int width, int height, const unsigned char* rgb,
     return "";
 }
 
+// One cache of its own for all textures, up to the end of the process: handles stay good.
+struct TextureCache {
+    decltype(OIIO::ImageCache::create(false)) cache = OIIO::ImageCache::create(false);
+
+    TextureCache() {
+        cache->attribute("max_memory_MB", 1024.0f);
+        cache->attribute("max_open_files", 100);
+        // Pictures without tiles are kept in squares, too.
+        cache->attribute("autotile", 64);
+        cache->attribute("unassociatedalpha", 1);
+    }
+};
+TextureCache& textures() {
+    static TextureCache* cache = new TextureCache;
+    return *cache;
+}
+
+struct OpenTexture {
+    OIIO::ImageCache::ImageHandle* file;
+    int x, y;  // of its first pixel
+    int channels;
+};
+
+// The cache's message, which names the file, without line breaks.
+std::string cache_error(const std::string& otherwise) {
+    std::string reason = textures().cache->geterror();
+    if (reason.empty()) return otherwise;
+    while (!reason.empty() && reason.back() == '\n') reason.pop_back();
+    for (char& c : reason) {
+        if (c == '\n') c = ' ';
+    }
+    return reason;
+}
+
+std::string open_texture(const char* path, unsigned long long most_pixels,
+                         DrudeOiioTexture& texture) {
+    static std::mutex mutex;
+    static std::deque<OpenTexture> opened;
+    const auto& cache = textures().cache;
+    // A file of this name may have been another one before.
+    cache->invalidate(OIIO::ustring(path), false);
+    auto* file = cache->get_image_handle(OIIO::ustring(path));
+    OIIO::ImageSpec spec;
+    if (!file || !cache->good(file) || !cache->get_imagespec(file, nullptr, spec)) {
+        return cache_error("no format that OpenImageIO reads");
+    }
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.deep) {
+        return "holds " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+               " pixels; expected a flat picture";
+    }
+    const auto width = static_cast<unsigned long long>(spec.width);
+    if (width > most_pixels / static_cast<unsigned long long>(spec.height)) {
+        return "larger than " + std::to_string(most_pixels) + " pixels";
+    }
+    texture.width = spec.width;
+    texture.height = spec.height;
+    texture.channels = spec.nchannels >= 3 ? 3 : 1;
+    texture.is_integer = spec.format.is_floating_point() ? 0 : 1;
+    const std::lock_guard<std::mutex> lock(mutex);
+    opened.push_back({file, spec.x, spec.y, texture.channels});
+    texture.handle = &opened.back();
+    return "";
+}
+
+std::string read_texels(const OpenTexture& texture, int x0, int x1, int y0, int y1, float* values) {
+    const bool done = textures().cache->get_pixels(
+        texture.file, nullptr, 0, 0, texture.x + x0, texture.x + x1, texture.y + y0, texture.y + y1,
+        0, 1, 0, texture.channels, OIIO::TypeDesc::FLOAT, values);
+    return done ? "" : cache_error("damaged or truncated");
+}
+
 }  // namespace
 
 extern "C" {
@@ -114,5 +188,36 @@ int drude_oiio_png(int width, int height, const unsigned char* rgb, DrudeOiioSin
     }
     sink(context, bytes.data(), bytes.size());
     return 0;
+}
+
+int drude_oiio_texture(const char* path, unsigned long long most_pixels,
+                       DrudeOiioTexture* texture) {
+    *texture = DrudeOiioTexture{};
+    std::string failure;
+    try {
+        failure = open_texture(path, most_pixels, *texture);
+    } catch (const std::exception& error) {
+        failure = error.what();
+    } catch (...) {
+        failure = "unknown failure inside OpenImageIO";
+    }
+    if (failure.empty()) return 0;
+    say(texture->message, sizeof texture->message, failure);
+    return 1;
+}
+
+int drude_oiio_texels(void* handle, int x0, int x1, int y0, int y1, float* values, char* message,
+                      size_t message_size) {
+    std::string failure;
+    try {
+        failure = read_texels(*static_cast<const OpenTexture*>(handle), x0, x1, y0, y1, values);
+    } catch (const std::exception& error) {
+        failure = error.what();
+    } catch (...) {
+        failure = "unknown failure inside OpenImageIO";
+    }
+    if (failure.empty()) return 0;
+    say(message, message_size, failure);
+    return 1;
 }
 }
