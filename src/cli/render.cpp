@@ -115,7 +115,7 @@ void write_and_report(const Options& options, const RenderOptions& render_option
                       const CommonOptions& common, std::chrono::steady_clock::time_point start,
                       RenderedFilm* film) {
     RenderSummary& summary = film->summary;
-    const std::vector<std::string> more = count_warnings(film->part.counts);
+    const std::vector<std::string> more = count_warnings(film->part.counts, summary.plugins);
     summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
     for (const std::string& warning : summary.warnings) {
         fmt::print(stderr, "drude: warning: {}\n", warning);

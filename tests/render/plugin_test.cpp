@@ -94,6 +94,8 @@ TEST(PluginFaults, AreCountedAndDoNoHarm) {
             const RenderResult result = render_quietly(scene, 16, stokes);
             const uint64_t counted = name == "unphysical" ? result.projections : result.not_finite;
             EXPECT_GT(counted, 0u) << name;
+            const std::string& warning = result.warnings.back();
+            EXPECT_NE(warning.find("the plugin " + name), std::string::npos) << warning;
             for (const Channel& channel : result.image.channels) {
                 for (const float value : channel.data) {
                     ASSERT_TRUE(std::isfinite(value)) << name << " " << channel.name;
