@@ -41,8 +41,8 @@ class FilmTable {
   public:
     FilmTable() = default;
 
-    // For packets of `lanes` wavelengths spread evenly over the film's range, a divisor of 400 and
-    // a multiple of 8. `material` may have any number of films. Takes some milliseconds a film of a
+    // For packets of `lanes` wavelengths spread evenly over the film's range, a divisor of 400.
+    // `material` may have any number of films. Takes some milliseconds a film of a
     // micrometre, and seconds where films are 100 micrometres thick; `for_each(count, body)` must
     // call body for 0 ... count - 1 in whatever order or at the same time. Throws Error (user) as
     // film_samples().

@@ -10,6 +10,23 @@
 
 namespace drude {
 
+// The material as it is met by light in a clear medium of index `ambient` > 0, as one that stands
+// in vacuum: every index counts against the medium's, and the films are as many more wavelengths
+// thick.
+inline Material seen_from(Material material, double ambient) {
+    const auto relative = [&](OpticalConstants* constants) {
+        for (double& n : constants->n) n /= ambient;
+        for (double& k : constants->k) k /= ambient;
+    };
+    relative(&material.substrate);
+    for (FilmLayer& layer : material.layers) {
+        relative(&layer.constants);
+        layer.thickness_nm *= ambient;
+        layer.thickness_spread_nm *= ambient;
+    }
+    return material;
+}
+
 // In light spread evenly over `width_nm` (0: of one wavelength) about `wavelength_nm` > 0, averaged
 // over the spread of the films' thickness; cos_theta in (0, 1]. Outside the tables as
 // OpticalConstants::at.

@@ -15,8 +15,10 @@
 #include "base/executor.h"
 #include "base/interrupt.h"
 #include "base/numbers.h"
+#include "base/sha256.h"
 #include "cli/command_list.h"
 #include "cli/json_output.h"
+#include "cli/scene_description.h"
 #include "render/environment_choice.h"
 #include "render/film_checkpoint.h"
 #include "render/film_partial.h"
@@ -29,30 +31,13 @@ namespace drude {
 namespace {
 
 struct Options {
-    std::string scene, output, transport = "auto", environment, resolution, isa, shard;
+    std::string scene, output, transport = "auto", environment, resolution, isa, shard, analyser;
     int samples = 0, wavelengths = 0, max_depth = -1;
     double time = 0, error = 0, checkpoint = 0;
     uint64_t seed = 0;
     bool spectral = false, stokes = false, dry_run = false, resume = false, allow_mixed = false;
+    bool strict = false;
 };
-
-void describe(const Scene& scene) {
-    size_t triangles = 0, spheres = 0;
-    for (const Shape& shape : scene.shapes) {
-        if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
-            triangles += mesh->triangles.size();
-        } else {
-            ++spheres;
-        }
-    }
-    fmt::print("{}: {} x {} pixels, {} samples, at most {} reflections a path\n", scene.file,
-               scene.film.width, scene.film.height, scene.samples_per_pixel, scene.max_depth);
-    fmt::print("  {} spheres, {} triangles, {} materials\n", spheres, triangles,
-               scene.materials.size());
-    fmt::print("  {} infinite, {} distant, {} area lights\n", scene.infinite_lights.size(),
-               scene.distant_lights.size(), scene.area_lights.size());
-    fmt::print("  hash {}\n", scene.sha256);
-}
 
 // "i/n", counted from 0.
 void read_shard(const std::string& text, RenderOptions* options) {
@@ -79,7 +64,7 @@ std::string checkpoint_for(const std::string& output, const Ranks* ranks) {
             .string());
 }
 
-RenderOptions options_for(const Options& options, const OptionSet& given,
+RenderOptions options_for(const Options& options, const Film& film, const OptionSet& given,
                           const CommonOptions& common, const Ranks* ranks) {
     RenderOptions result;
     if (given.given("--spp")) result.samples_per_pixel = options.samples;
@@ -90,7 +75,7 @@ RenderOptions options_for(const Options& options, const OptionSet& given,
     if (options.transport == "intensity") result.transport = Transport::intensity;
     if (options.transport == "stokes") result.transport = Transport::stokes;
     result.stokes = options.stokes;
-    result.spectral = options.spectral;
+    result.spectral = options.spectral || film.spectral;
     result.wavelengths = options.wavelengths;
     result.threads = common.threads;
     result.quiet = common.quiet || (ranks && ranks->rank() != 0);
@@ -197,16 +182,31 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
             user_error("--max-depth {}: expected 0 or more", options.max_depth);
         scene.max_depth = options.max_depth;
     }
+    if (given.given("--analyser")) {
+        scene.camera.analyser = parse_analyser(options.analyser, "--analyser");
+        // Sums with it and without are sums of different pictures.
+        scene.sha256 = sha256(scene.sha256 + format_analyser(*scene.camera.analyser));
+    }
+    if (options.strict && !scene.stand_ins.empty()) {
+        user_error("{}; expected nothing, with --strict, that something else stands in for{}",
+                   scene.stand_ins[0],
+                   scene.stand_ins.size() > 1
+                       ? fmt::format(" (and {} more)", scene.stand_ins.size() - 1)
+                       : "");
+    }
     if (options.dry_run) {
         for (const std::string& warning : scene.warnings) {
             fmt::print(stderr, "drude: warning: {}\n", warning);
         }
-        describe(scene);
+        fmt::print("{}", describe_scene(scene));
         return 0;
     }
 
     const std::unique_ptr<const Ranks> ranks = mpi_ranks();
-    RenderOptions render_options = options_for(options, given, common, ranks.get());
+    RenderOptions render_options = options_for(options, scene.film, given, common, ranks.get());
+    render_options.lights_are_built = [&scene] {
+        for (InfiniteLight& light : scene.infinite_lights) light.picture.reset();
+    };
     RenderedFilm film = render_film(scene, render_options);
     // Where one process was interrupted no picture comes about: all save what they have.
     if (ranks && ranks->any(film.summary.interrupted)) {
@@ -290,13 +290,17 @@ Command render_command() {
                    "what a path carries (default auto)");
         set.flag("--stokes", options->stokes, "write S0 to S3");
         set.flag("--spectral", options->spectral, "write radiance in 10 nm layers");
-        set.option("--wavelengths", options->wavelengths, "wavelengths a path: 8, 16 or 40");
+        set.option("--wavelengths", options->wavelengths, "wavelengths a path: 4, 8, 16 or 40");
         set.option("--environment", options->environment,
                    "a picture in place of the scene's infinite lights, or 'courtyard'");
         set.option("--resolution", options->resolution, "WIDTHxHEIGHT in place of the scene's");
         set.option("--max-depth", options->max_depth, "reflections of a path at most");
         set.choice("--isa", options->isa, {"sse2", "sse4.2", "avx", "avx2", "avx512"},
                    "Embree's instruction set (default: the best here)");
+        set.option("--analyser", options->analyser,
+                   "ANGLE[,retarder=FAST[:RETARDANCE]] in degrees: a filter before the camera");
+        set.flag("--strict", options->strict,
+                 "an error, not a warning, where pbrt-v4 would draw something else");
         set.flag("--dry-run", options->dry_run, "read, check and describe the scene only");
         OptionSet* given = &set;
         return [options, given, &common] { return run(*options, *given, common); };

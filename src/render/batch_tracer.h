@@ -37,10 +37,12 @@ struct TracerSetup {
     const Geometry& geometry;
     const Lights& lights;
     const OpticalElements& elements;
+    const NumberTextures& numbers;
     const CameraRays& camera;
     const PixelFilter& filter;
     uint64_t seed;
     int max_depth;
+    int threads = 0;  // for tables that take a while
 };
 
 // `wavelengths` is 4, 8, 16 or spectral_bins.

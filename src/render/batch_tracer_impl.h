@@ -10,14 +10,17 @@ template <Transport transport, int N>
 class PacketBatchTracer final : public BatchTracer {
   public:
     explicit PacketBatchTracer(const TracerSetup& setup)
-        : setup_(setup), tables_(setup.scene), path_{setup.scene,
-                                                     setup.geometry,
-                                                     setup.lights,
-                                                     setup.elements,
-                                                     tables_,
-                                                     setup.camera.handedness(),
-                                                     setup.max_depth,
-                                                     before_the_camera(setup.scene.camera)} {}
+        : setup_(setup),
+          tables_(setup.scene, setup.numbers, setup.threads),
+          path_{setup.scene,
+                setup.geometry,
+                setup.lights,
+                setup.elements,
+                setup.numbers,
+                tables_,
+                setup.camera.handedness(),
+                setup.max_depth,
+                before_the_camera(setup.scene.camera)} {}
 
     void trace(const BatchRequest& request, BatchResult* result,
                PathStatistics* statistics) const override {

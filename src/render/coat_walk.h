@@ -81,9 +81,8 @@ void Path<transport, N>::add_light_through_rough_coat(const Vertex& v, const Coa
 template <Transport transport, int N>
 template <class Base>
 bool Path<transport, N>::walk_in_coat(const Vertex& v, const CoatTables<N>& coat,
-                                      const Base& base_tables) {
+                                      const Base& base) {
     using coat_detail::mirrored;
-    const auto base = in_coat(base_tables);
     const float eta2 = coat.eta * coat.eta;
     const DielectricScattering<N> from_above(coat.interface, Packet<N>(coat.eta));
     const DielectricScattering<N> from_below(coat.interface, Packet<N>(1 / coat.eta));

@@ -24,6 +24,7 @@ std::vector<std::pair<std::string, std::string>> FilmJob::fields() const {
             {"transport", std::string(transport_name(transport))},
             {"wavelengths", fmt::format("{}", wavelengths)},
             {"spectral layers", spectral ? "yes" : "no"},
+            {"analyser", analyser},
             {"version", version},
             {"instruction set", instruction_set}};
 }
@@ -68,6 +69,7 @@ std::map<std::string, Attribute> picture_attributes(const FilmJob& job, uint32_t
     attributes["sceneHash"] = job.scene_hash;
     attributes["transport"] = std::string(transport_name(job.transport));
     attributes["wavelengths"] = job.wavelengths;
+    attributes["analyser"] = job.analyser;
     attributes["instructionSet"] = job.instruction_set;
     attributes["drudeVersion"] = job.version;
     if (job.spectral) {

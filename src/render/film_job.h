@@ -24,6 +24,7 @@ struct FilmJob {
     Transport transport = Transport::scalar;
     int wavelengths = 8;
     bool spectral = false;
+    std::string analyser = "none";  // before the camera
     std::string instruction_set, version;
 
     FilmLayout layout() const;

@@ -27,6 +27,7 @@ struct PathSetup {
     const Geometry& geometry;
     const Lights& lights;
     const OpticalElements& elements;
+    const NumberTextures& numbers;
     const SpectralTables<N>& tables;
     float handedness;
     int max_depth;
@@ -93,7 +94,7 @@ class Path {
         }
         const Shape& shape = scene_.shapes[hit.shape];
         if (shape.area_light >= 0) add_area_light(shape, hit);
-        const int material = chosen_material(shape.material);
+        const int material = chosen_material(shape.material, hit);
         if (material < 0) {
             // Nothing here after all: straight on. Light sampling took the surface for solid, so
             // that nothing competes with what is found behind it.
@@ -111,14 +112,15 @@ class Path {
     // ---- surfaces
 
     bool scatter_at(const Vertex& v, const DiffuseTables<N>& surface) {
-        return scatter(v, DiffuseScattering<N>(surface.reflectance[phase_]));
+        return scatter(v, DiffuseScattering<N>(reflectance_at(v, surface.reflectance)));
     }
     bool scatter_at(const Vertex& v, const DiffuseTransmissionTables<N>& surface) {
-        return scatter(v, DiffuseTransmissionScattering<N>(surface.reflectance[phase_],
-                                                           surface.transmittance[phase_]));
+        return scatter(v,
+                       DiffuseTransmissionScattering<N>(reflectance_at(v, surface.reflectance),
+                                                        reflectance_at(v, surface.transmittance)));
     }
     bool scatter_at(const Vertex& v, const ConductorTables<N>& metal) {
-        return scatter(v, ConductorScattering<N>(metal, metal.microfacets, phase_));
+        return with_conductor(v, metal, [&](const auto& surface) { return scatter(v, surface); });
     }
     bool scatter_at(const Vertex& v, const DielectricTables<N>& glass) {
         const Packet<N> index = glass.eta[phase_];
@@ -138,7 +140,12 @@ class Path {
         return scatter(v, ThinDielectricScattering<N>(plate.eta[phase_]));
     }
     bool scatter_at(const Vertex& v, const CoatTables<N>& coat) {
-        return std::visit([&](const auto& base) { return walk_in_coat(v, coat, base); }, coat.base);
+        if (const auto* base = std::get_if<DiffuseTables<N>>(&coat.base)) {
+            return walk_in_coat(v, coat,
+                                DiffuseScattering<N>(reflectance_at(v, base->reflectance)));
+        }
+        return with_conductor(v, std::get<ConductorTables<N>>(coat.base),
+                              [&](const auto& base) { return walk_in_coat(v, coat, base); });
     }
     bool scatter_at(const Vertex& v, const PluginTables<N>& plugin) {
         return scatter(v, PluginScattering<N>(plugin, phase_, v, beam_.x, h_,
@@ -188,11 +195,28 @@ class Path {
     void add_light_through_rough_coat(const Vertex& v, const CoatTables<N>& coat,
                                       const DielectricScattering<N>& from_below,
                                       const glm::vec3& up);
-    DiffuseScattering<N> in_coat(const DiffuseTables<N>& base) const {
-        return DiffuseScattering<N>(base.reflectance[phase_]);
+
+    // ---- what textures say at a vertex
+
+    Packet<N> reflectance_at(const Vertex& v, const PackedValue<N>& value) const {
+        if (value.texture < 0) return value.constant[phase_];
+        return tables_.textures.reflectance(value, TexturePoint(setup_.geometry, v.hit), phase_);
     }
-    ConductorScattering<N> in_coat(const ConductorTables<N>& base) const {
-        return ConductorScattering<N>(base, base.microfacets, phase_);
+    template <class Body>
+    bool with_conductor(const Vertex& v, const ConductorTables<N>& metal, const Body& body) const {
+        if (metal.roughness) {
+            const double alpha =
+                setup_.numbers.alpha(*metal.roughness, TexturePoint(setup_.geometry, v.hit));
+            return with_lobe(v, metal, Microfacets<float>::from_alpha(alpha, metal.masking), body);
+        }
+        return with_lobe(v, metal, metal.microfacets, body);
+    }
+    template <class Body>
+    bool with_lobe(const Vertex& v, const ConductorTables<N>& metal, const Microfacets<float>& lobe,
+                   const Body& body) const {
+        if (!metal.fixed_reflectance) return body(ConductorScattering<N>(metal, lobe, phase_));
+        return body(ConductorScattering<N>(metal, lobe, phase_,
+                                           reflectance_at(v, *metal.fixed_reflectance)));
     }
 
     // ---- the state of the path
@@ -213,11 +237,13 @@ class Path {
     }
 
     // Mixtures choose at random; -1 is a surface that is not there.
-    int chosen_material(int material) {
+    int chosen_material(int material, const Hit& hit) {
         while (material >= 0) {
             const auto* mix = std::get_if<MixTables>(&tables_.surfaces[material]);
             if (mix == nullptr) return material;
-            material = sampler_.next_1d() < mix->amount ? mix->second : mix->first;
+            const auto amount = static_cast<float>(
+                setup_.numbers.fraction(mix->amount, TexturePoint(setup_.geometry, hit)));
+            material = sampler_.next_1d() < amount ? mix->second : mix->first;
         }
         return material;
     }

@@ -10,13 +10,17 @@
 // It covers
 //   shapes     spheres (cut or whole) and triangle meshes with vertex normals, under any affine
 //              transformation, mirroring ones and reversed orientation included;
-//   materials  diffuse, and conductors: bare, under films, or of a fixed reflectance, rough or not;
-//              plugins;
+//   materials  conductors (bare, under films averaged over each nanometre, or of a fixed
+//              reflectance), dielectrics, smooth or rough, and thin ones, coats, as a walk between
+//              their two surfaces, diffusers, mixtures, and optical elements, straight through
+//              which light is found; textures count with their typical value. Where an index
+//              changes with wavelength, a path has one wavelength. Plugins are asked for one
+//              wavelength at a time. Coats are refused in scenes with lights that have no size;
 //   lights     area lights (one- or two-sided), infinite lights (constant, lat-long, equal-area),
 //              distant and point lights and spots. The last three have no size to walk into:
-//              wherever a path meets a surface that is not a mirror, their term
-//              M(o <- i) E(lambda) cos_i * visibility is added in closed form. A mirror never shows
-//              one. All of them may be polarised;
+//              wherever a path meets a surface that is not smooth, their term
+//              M(o <- i) E(lambda) cos_i * visibility is added in closed form. What is smooth never
+//              shows one. All of them may be polarised;
 //   cameras    all, with a lens;
 //   the film   box filters. Others are refused.
 #pragma once

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <set>
 #include <stdexcept>
 
+#include "base/numbers.h"
 #include "render/batch_tracer.h"
 #include "render/film_checkpoint.h"
 #include "render/film_layers.h"
 #include "render/film_loop.h"
 #include "render/film_ranks.h"
+#include "render/geometry_layers.h"
 #include "render/transport_choice.h"
 
 namespace drude {
@@ -88,6 +91,16 @@ void choose_transport(const Scene& scene, const RenderOptions& options, RenderSu
     }
 }
 
+std::string analyser_text(const std::optional<Analyser>& analyser) {
+    if (!analyser) return "none";
+    std::string text = format_double(analyser->axis_deg);
+    if (const auto& retarder = analyser->retarder) {
+        text += fmt::format(",retarder={}:{}", format_double(retarder->fast_axis_deg),
+                            format_double(retarder->retardance_deg));
+    }
+    return text;
+}
+
 // Part i of n of the part's batches, as even as whole batches allow.
 void cut(int i, int n, FilmPart* part) {
     const uint64_t first = part->first, count = part->last - part->first;
@@ -116,6 +129,7 @@ FilmPart part_for(const Scene& scene, const RenderOptions& options, const Render
     job.transport = summary.transport;
     job.wavelengths = summary.wavelengths;
     job.spectral = options.spectral;
+    job.analyser = analyser_text(scene.camera.analyser);
     job.instruction_set = fmt::format("{}/{}", DRUDE_ISA, isa);
     job.version = DRUDE_VERSION;
     part.batches = open ? 0 : batches;
@@ -163,19 +177,27 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
 
     const Geometry geometry(scene, options.isa);
     const OpticalElements elements(scene, options.isa);
+    const NumberTextures numbers(scene);
     const Lights lights(scene, geometry);
+    if (options.lights_are_built) options.lights_are_built();
     summary.warnings.insert(summary.warnings.end(), lights.warnings().begin(),
                             lights.warnings().end());
     if (lights.empty()) summary.warnings.push_back("the scene has no light; the picture is black");
     const CameraRays camera(scene.camera, scene.film.width, scene.film.height);
     const PixelFilter filter(scene.filter);
-    const auto tracer = make_batch_tracer(summary.transport, summary.wavelengths,
-                                          {scene, geometry, lights, elements, camera, filter,
-                                           options.seed.value_or(scene.seed), scene.max_depth});
+    const auto tracer =
+        make_batch_tracer(summary.transport, summary.wavelengths,
+                          {scene, geometry, lights, elements, numbers, camera, filter,
+                           options.seed.value_or(scene.seed), scene.max_depth, options.threads});
 
     const FilmPart part = part_for(scene, options, summary, geometry.isa());
-    RenderedFilm film{std::move(summary), part, FilmSums(part.job.layout())};
+    RenderedFilm film{std::move(summary), part, FilmSums(part.job.layout()), {}};
     if (!options.checkpoint.empty()) take_up(options, &film);
+    if (scene.film.gbuffer) {
+        film.geometry.width = scene.film.width;
+        film.geometry.height = scene.film.height;
+        add_geometry_layers(scene, geometry, camera, options.threads, &film.geometry);
+    }
 
     FilmLoopOptions loop;
     loop.stop = {film.part.last - film.part.first, options.seconds, options.error};
@@ -219,9 +241,11 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
     for (const ExrChannel& channel : layers.channels()) image.add(channel.name);
     const size_t width = static_cast<size_t>(image.width);
     std::vector<uint32_t> words(width * layers.channels().size());
+    const size_t own = image.channels.size();
+    for (const Channel& channel : film.geometry.channels) image.channels.push_back(channel);
     for (size_t first = 0; first < image.pixels(); first += width) {
         layers.row(film.sums, first, words.data());
-        for (size_t c = 0; c < image.channels.size(); ++c) {
+        for (size_t c = 0; c < own; ++c) {
             std::transform(&words[c * width], &words[c * width] + width,
                            &image.channels[c].data[first],
                            [](uint32_t word) { return std::bit_cast<float>(word); });
@@ -238,11 +262,20 @@ void write_film(const std::string& path, const RenderedFilm& film,
     picture.width = film.part.job.width;
     picture.height = film.part.job.height;
     picture.channels = layers.channels();
+    const size_t own = picture.channels.size();
+    for (const Channel& channel : film.geometry.channels)
+        picture.channels.push_back({channel.name});
     picture.attributes = picture_attributes(film.part.job, film.part.first, film.part.fewest);
+    for (const auto& [name, value] : film.geometry.attributes) picture.attributes[name] = value;
     picture.attributes["commandLine"] = command_line;
     const size_t width = static_cast<size_t>(picture.width);
     write_exr_rows(path, picture, Compression::piz, [&](int y, uint32_t* words) {
-        layers.row(film.sums, static_cast<size_t>(y) * width, words);
+        const size_t first = static_cast<size_t>(y) * width;
+        layers.row(film.sums, first, words);
+        for (size_t c = 0; c < film.geometry.channels.size(); ++c) {
+            std::memcpy(words + (own + c) * width, &film.geometry.channels[c].data[first],
+                        width * sizeof(float));
+        }
     });
 }
 

@@ -1,6 +1,7 @@
 // Rendering a scene to an image.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -38,6 +39,10 @@ struct RenderOptions {
     bool resume = false;                       // go on from `checkpoint`, where it is there
     bool allow_mixed = false;                  // also one of another instruction set
     std::string command_line;                  // for the checkpoint
+
+    // Called once the lights hold what they need of the scene, before the film takes its memory:
+    // pictures that the scene carries (InfiniteLight::picture) may be let go.
+    std::function<void()> lights_are_built;
 };
 
 struct RenderSummary {
@@ -67,6 +72,7 @@ struct RenderedFilm {
     RenderSummary summary;
     FilmPart part;
     FilmSums sums;
+    Image geometry;  // layers of Film "gbuffer" (geometry_layers.h); none where it is another
 };
 
 // Renders the batches that the options name. Same scene, options and seed give the same sums
@@ -81,7 +87,8 @@ void summarise(RenderedFilm* film);
 
 // Channels: R, G, B; variance.R, .G, .B of these means, estimated between batches (only with two
 // or more); S0.R ... S3.B and their variances with `stokes`; "S0.384,500000nm" ... with `spectral`
-// (S1..S3 too with `stokes`). Samples are rounded up to whole batches. Errors as render_film.
+// (S1..S3 too with `stokes`); the layers of Film "gbuffer". Samples are rounded up to whole
+// batches. Errors as render_film.
 RenderResult render(const Scene& scene, const RenderOptions& options);
 
 // The picture of a film, written row by row: no second film of floats in memory.

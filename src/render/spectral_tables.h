@@ -1,11 +1,15 @@
 // Everything of a scene that depends on wavelength, laid out for packets of N.
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
+#include "base/executor.h"
+#include "materials/film_table.h"
 #include "materials/rough_dielectric.h"
 #include "materials/torrance_sparrow.h"
+#include "render/textures.h"
 #include "render/wavelengths.h"
 #include "scene/plugin_surface.h"
 #include "scene/scene.h"
@@ -15,80 +19,74 @@ namespace drude {
 template <int N>
 struct ConductorTables {
     Microfacets<float> microfacets;
-    bool has_fixed_reflectance = false;
-    PackedSpectrum<N> fixed_reflectance;
+    std::optional<Roughness> roughness;  // where microfacets change over the surface
+    Masking masking = Masking::smith;
+    std::optional<PackedValue<N>> fixed_reflectance;
     PackedSpectrum<N> n, k;
-    struct FilmTables {
-        PackedSpectrum<N> n, k;
-        float thickness_nm;
-    };
-    std::vector<FilmTables> films;  // the first is the outermost
+    FilmTable films;  // empty: bare metal
 
-    static constexpr int max_films = 16;
-
-    // Light comes from a clear medium of index `ambient`: everything counts against it, and the
-    // wavelength in it is shorter by as much.
-    explicit ConductorTables(const ConductorMaterial& metal, double ambient = 1) {
+    // Light comes from a clear medium of index `ambient`.
+    explicit ConductorTables(const ConductorMaterial& metal, int threads, double ambient = 1)
+        : roughness(metal.textured_roughness), masking(metal.surface.masking) {
         const Material& surface = metal.surface;
         microfacets = metal.alpha >= 0
                           ? Microfacets<float>::from_alpha(metal.alpha, surface.masking)
                           : Microfacets<float>(surface.lobe, surface.masking, surface.beta);
         if (metal.reflectance) {
-            has_fixed_reflectance = true;
-            fixed_reflectance = PackedSpectrum<N>(metal.reflectance->constant);
+            fixed_reflectance = SpectrumTextures<N>::pack(*metal.reflectance);
             return;
         }
-        const auto pack = [&](DenseSpectrum values) {
-            for (double& value : values) value /= ambient;
-            return PackedSpectrum<N>(values);
-        };
-        const DenseIndex index = dense(surface.substrate);
-        n = pack(index.n);
-        k = pack(index.k);
-        if (surface.layers.size() > max_films) {
-            user_error("material '{}' has {} films; at most {} are modelled", surface.name,
-                       surface.layers.size(), max_films);
+        const Material seen = seen_from(surface, ambient);
+        if (!surface.layers.empty()) {
+            films = FilmTable(seen, N, [&](int count, const std::function<void(int)>& body) {
+                parallel_for(static_cast<size_t>(count), threads,
+                             [&](size_t i) { body(static_cast<int>(i)); });
+            });
+            return;
         }
-        for (const FilmLayer& layer : surface.layers) {
-            const DenseIndex film = dense(layer.constants);
-            films.push_back(
-                {pack(film.n), pack(film.k), static_cast<float>(layer.thickness_nm * ambient)});
-        }
+        const DenseIndex index = dense(seen.substrate);
+        n = PackedSpectrum<N>(index.n);
+        k = PackedSpectrum<N>(index.k);
     }
 
-    // The facet's reflection at cos_theta for the wavelengths of `phase`.
+    // The facet's reflection at cos_theta for the wavelengths of `phase`; not of a fixed
+    // reflectance.
     Reflection<Packet<N>> reflection(float cos_theta, int phase) const {
-        using P = Packet<N>;
-        if (has_fixed_reflectance) {
-            const P r = fixed_reflectance[phase];
-            return {r, r, -r, P(0.0f)};
+        if (!films.empty()) return films.template at<N>(cos_theta, phase);
+        return reflect(ComplexIndex<Packet<N>>{n[phase], k[phase]}, Packet<N>(cos_theta));
+    }
+
+  private:
+    // Everything counts against the index of the medium, and the wavelength in it is shorter by as
+    // much, which thicker films express as well.
+    static Material seen_from(Material material, double ambient) {
+        const auto divide = [&](OpticalConstants& constants) {
+            for (double& value : constants.n) value /= ambient;
+            for (double& value : constants.k) value /= ambient;
+        };
+        divide(material.substrate);
+        for (FilmLayer& layer : material.layers) {
+            divide(layer.constants);
+            layer.thickness_nm *= ambient;
+            layer.thickness_spread_nm *= ambient;
         }
-        const ComplexIndex<P> substrate{n[phase], k[phase]};
-        if (films.empty()) return reflect(substrate, P(cos_theta));
-        P wavelength;
-        for (int lane = 0; lane < N; ++lane) {
-            wavelength.set(lane, static_cast<float>(Wavelengths<N>::nanometres(phase, lane)));
-        }
-        ThinFilm<P> stack[max_films];
-        const int count = static_cast<int>(films.size());
-        for (int i = 0; i < count; ++i) {
-            stack[i] = {{films[i].n[phase], films[i].k[phase]}, P(films[i].thickness_nm)};
-        }
-        return reflect(stack, count, substrate, P(cos_theta), wavelength);
+        return material;
     }
 };
 
 template <int N>
 struct DiffuseTables {
-    PackedSpectrum<N> reflectance;
-    explicit DiffuseTables(const DiffuseMaterial& m) : reflectance(m.reflectance.constant) {}
+    PackedValue<N> reflectance;
+    explicit DiffuseTables(const DiffuseMaterial& m)
+        : reflectance(SpectrumTextures<N>::pack(m.reflectance)) {}
 };
 
 template <int N>
 struct DiffuseTransmissionTables {
-    PackedSpectrum<N> reflectance, transmittance;
+    PackedValue<N> reflectance, transmittance;
     explicit DiffuseTransmissionTables(const DiffuseTransmissionMaterial& m)
-        : reflectance(m.reflectance.constant), transmittance(m.transmittance.constant) {}
+        : reflectance(SpectrumTextures<N>::pack(m.reflectance)),
+          transmittance(SpectrumTextures<N>::pack(m.transmittance)) {}
 };
 
 template <int N>
@@ -114,16 +112,17 @@ struct CoatTables {
     RoughDielectric<float> interface;
     float thickness;
     std::variant<ConductorTables<N>, DiffuseTables<N>> base;
-    explicit CoatTables(const CoatedMaterial& m)
+    CoatTables(const CoatedMaterial& m, int threads)
         : eta(static_cast<float>(m.eta[550 - spectrum_first_nm])),
           interface(Microfacets<float>::from_alpha(m.alpha, Masking::smith)),
           thickness(static_cast<float>(m.thickness)),
-          base(base_tables(m)) {}
+          base(base_tables(m, threads)) {}
 
   private:
-    static std::variant<ConductorTables<N>, DiffuseTables<N>> base_tables(const CoatedMaterial& m) {
+    static std::variant<ConductorTables<N>, DiffuseTables<N>> base_tables(const CoatedMaterial& m,
+                                                                          int threads) {
         if (const auto* metal = std::get_if<ConductorMaterial>(&m.base)) {
-            return ConductorTables<N>(*metal, m.eta[550 - spectrum_first_nm]);
+            return ConductorTables<N>(*metal, threads, m.eta[550 - spectrum_first_nm]);
         }
         return DiffuseTables<N>(std::get<DiffuseMaterial>(m.base));
     }
@@ -131,7 +130,7 @@ struct CoatTables {
 
 struct MixTables {
     int first, second;
-    float amount;
+    NumberValue amount;
 };
 
 template <int N>
@@ -158,9 +157,12 @@ using SurfaceTables =
 
 template <int N>
 struct SpectralTables {
-    explicit SpectralTables(const Scene& scene) {
+    // All must outlive it. `threads` share the work of tabulating films.
+    SpectralTables(const Scene& scene, const NumberTextures& numbers, int threads)
+        : textures(scene, numbers) {
         for (const SurfaceMaterial& material : scene.materials) {
-            surfaces.push_back(std::visit([](const auto& m) { return tables_of(m); }, material));
+            surfaces.push_back(
+                std::visit([&](const auto& m) { return tables_of(m, threads); }, material));
         }
         for (const InfiniteLight& light : scene.infinite_lights) {
             infinite_radiance.emplace_back(light.radiance);
@@ -189,6 +191,7 @@ struct SpectralTables {
     }
 
     std::vector<SurfaceTables<N>> surfaces;  // by material
+    SpectrumTextures<N> textures;
     std::vector<PackedSpectrum<N>> infinite_radiance, distant_irradiance, point_intensity;
     std::vector<PackedSpectrum<N>> area_radiance;
     PackedSpectrum<N> rgb_basis[3];
@@ -196,19 +199,25 @@ struct SpectralTables {
 
   private:
     using Tables = SurfaceTables<N>;
-    static Tables tables_of(const ConductorMaterial& m) { return ConductorTables<N>(m); }
-    static Tables tables_of(const DiffuseMaterial& m) { return DiffuseTables<N>(m); }
-    static Tables tables_of(const DiffuseTransmissionMaterial& m) {
+    static Tables tables_of(const ConductorMaterial& m, int threads) {
+        return ConductorTables<N>(m, threads);
+    }
+    static Tables tables_of(const DiffuseMaterial& m, int) { return DiffuseTables<N>(m); }
+    static Tables tables_of(const DiffuseTransmissionMaterial& m, int) {
         return DiffuseTransmissionTables<N>(m);
     }
-    static Tables tables_of(const DielectricMaterial& m) { return DielectricTables<N>(m); }
-    static Tables tables_of(const ThinDielectricMaterial& m) { return ThinDielectricTables<N>(m); }
-    static Tables tables_of(const CoatedMaterial& m) { return CoatTables<N>(m); }
-    static Tables tables_of(const MixMaterial& m) {
-        return MixTables{m.first, m.second, static_cast<float>(m.amount.constant)};
+    static Tables tables_of(const DielectricMaterial& m, int) { return DielectricTables<N>(m); }
+    static Tables tables_of(const ThinDielectricMaterial& m, int) {
+        return ThinDielectricTables<N>(m);
     }
-    static Tables tables_of(const OpticalElementMaterial&) { return NoTables{}; }
-    static Tables tables_of(const PluginMaterial& m) { return PluginTables<N>(m); }
+    static Tables tables_of(const CoatedMaterial& m, int threads) {
+        return CoatTables<N>(m, threads);
+    }
+    static Tables tables_of(const MixMaterial& m, int) {
+        return MixTables{m.first, m.second, m.amount};
+    }
+    static Tables tables_of(const OpticalElementMaterial&, int) { return NoTables{}; }
+    static Tables tables_of(const PluginMaterial& m, int) { return PluginTables<N>(m); }
 };
 
 }  // namespace drude

@@ -105,6 +105,10 @@ class ConductorScattering {
     static constexpr bool depolarises = false;
     ConductorScattering(const ConductorTables<N>& metal, const Microfacets<float>& lobe, int phase)
         : metal_(metal), lobe_(lobe), phase_(phase) {}
+    // Of a metal with a fixed reflectance: its value here.
+    ConductorScattering(const ConductorTables<N>& metal, const Microfacets<float>& lobe, int phase,
+                        const Packet<N>& fixed)
+        : metal_(metal), lobe_(lobe), phase_(phase), fixed_(fixed) {}
 
     bool is_delta() const { return lobe_.is_mirror(); }
     LobeValue evaluate(const glm::vec3& o, const glm::vec3& i) const {
@@ -125,6 +129,7 @@ class ConductorScattering {
     }
     Reflection<Packet<N>> optics(const glm::vec3&, const glm::vec3& i, const glm::vec3& m,
                                  bool) const {
+        if (metal_.fixed_reflectance) return {fixed_, fixed_, -fixed_, Packet<N>(0.0f)};
         return metal_.reflection(std::min(1.0f, glm::dot(i, m)), phase_);
     }
 
@@ -132,6 +137,7 @@ class ConductorScattering {
     const ConductorTables<N>& metal_;
     const Microfacets<float>& lobe_;
     int phase_;
+    Packet<N> fixed_;
 };
 
 // The interface of a dielectric, from either side. Where the index changes with wavelength, one

@@ -35,6 +35,8 @@ struct BuildContext {
     Assets& assets;
     Messages& messages;
     Textures& textures;
+    // What stands for the material of that name until names are resolved, at the scene's end.
+    std::function<int(const std::string& name, const Place& place)> material_named;
 };
 
 // ---- settings ----------------------------------------------------------------------------------
@@ -80,6 +82,13 @@ std::optional<SurfaceMaterial> build_material(const std::string& name, Parameter
 // `prefix` is "conductor." for the metal under a coat, otherwise "".
 ConductorMaterial build_conductor(ParameterList& list, const std::string& prefix,
                                   BuildContext& context);
+DielectricMaterial build_dielectric(ParameterList& list, BuildContext& context);
+ThinDielectricMaterial build_thin_dielectric(ParameterList& list, BuildContext& context);
+// "coatedconductor", or else "coateddiffuse".
+CoatedMaterial build_coated(ParameterList& list, bool on_metal, BuildContext& context);
+DiffuseTransmissionMaterial build_diffuse_transmission(ParameterList& list, BuildContext& context);
+// `name` is "linearpolariser", "retarder" or "circularpolariser".
+OpticalElementMaterial build_optical_element(const std::string& name, ParameterList& list);
 // `is_spectrum` tells the two kinds, "spectrum" and "float", apart. Enters the texture under
 // `name`.
 void build_texture(const std::string& name, bool is_spectrum, const std::string& type,

@@ -12,6 +12,7 @@
 
 #include "base/numbers.h"
 #include "scene/builders.h"
+#include "scene/material_parts.h"
 #include "scene/spectra.h"
 
 namespace drude {
@@ -138,37 +139,6 @@ Material named_material(ParameterList& list, BuildContext& context) {
     return material;
 }
 
-double alpha_of(double roughness, bool remap) {
-    return remap ? std::sqrt(roughness) : roughness;
-}
-
-// pbrt's roughness: two numbers in pbrt, one here.
-void read_roughness(ConductorMaterial& conductor, ParameterList& list, const std::string& prefix,
-                    BuildContext& context) {
-    const bool remap = list.boolean("remaproughness", true);
-    const double both = number_or_texture(list, prefix + "roughness", 0, context);
-    const double u = number_or_texture(list, prefix + "uroughness", both, context);
-    const double v = number_or_texture(list, prefix + "vroughness", both, context);
-    for (const double roughness : {both, u, v}) {
-        if (!(roughness >= 0 && roughness <= 10)) {
-            user_error_at(list.place_of(prefix + "roughness"), "{}: roughness {}; expected 0 to 10",
-                          list.owner(), format_double(roughness));
-        }
-    }
-    const double alpha_u = alpha_of(u, remap), alpha_v = alpha_of(v, remap);
-    conductor.alpha = alpha_u == alpha_v ? alpha_u : std::sqrt(alpha_u * alpha_v);
-    if (alpha_u != alpha_v) {
-        context.messages.stand_in(
-            list.place_of(prefix + "uroughness"),
-            fmt::format("{}: a roughness that depends on direction is not modelled; its geometric "
-                        "mean, alpha {}, stands in",
-                        list.owner(), format_double(conductor.alpha)));
-    }
-    conductor.surface.lobe = Lobe::trowbridge_reitz;
-    conductor.surface.masking = Masking::smith;
-    conductor.surface.beta = 0;
-}
-
 bool allows_smith(Lobe lobe) {
     return lobe == Lobe::beckmann || lobe == Lobe::trowbridge_reitz;
 }
@@ -225,7 +195,7 @@ ConductorMaterial build_conductor(ParameterList& list, const std::string& prefix
     if (prefix.empty() && list.has("material")) {
         conductor.surface = named_material(list, context);
     } else if (list.has("reflectance")) {
-        conductor.reflectance = SpectrumValue{reflectance(list, "reflectance", 1, context)};
+        conductor.reflectance = reflectance_value(list, "reflectance", 1, context);
         conductor.surface.name = "reflectance";
         conductor.surface.substrate = published_set("Cu");
     } else {
@@ -241,7 +211,12 @@ ConductorMaterial build_conductor(ParameterList& list, const std::string& prefix
         read_lobe(conductor.surface, list);
         list.boolean("remaproughness", true);
     } else {
-        read_roughness(conductor, list, prefix, context);
+        const RoughnessFound found = read_roughness(list, prefix, context);
+        conductor.alpha = found.alpha;
+        conductor.textured_roughness = found.textured;
+        conductor.surface.lobe = Lobe::trowbridge_reitz;
+        conductor.surface.masking = Masking::smith;
+        conductor.surface.beta = 0;
     }
     at_place(list.place(), [&] { conductor.surface.check(); });
     return conductor;

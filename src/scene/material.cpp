@@ -8,19 +8,44 @@ namespace drude {
 
 namespace {
 
-SurfaceMaterial diffuse_stand_in(const std::string& name, ParameterList& list,
-                                 BuildContext& context) {
-    // Those with a diffuse base keep its colour.
-    const bool has_base =
-        (name == "coateddiffuse" || name == "diffusetransmission") && list.has("reflectance");
-    context.messages.stand_in(
-        list.place(), fmt::format("Material \"{}\" is not modelled; a diffuse surface of {} stands "
-                                  "in",
-                                  name, has_base ? "its reflectance" : "reflectance 0.5"));
-    DiffuseMaterial diffuse{{constant_spectrum(0.5)}};
-    if (has_base) diffuse.reflectance.constant = reflectance(list, "reflectance", 0.5, context);
-    list.ignore(known_parameters("Material", name));
-    return diffuse;
+// Two names; both may be defined later.
+MixMaterial build_mix(ParameterList& list, BuildContext& context) {
+    const Parameter* names = list.values("materials", ParameterType::string);
+    const size_t count = names == nullptr ? 0 : names->strings.size();
+    if (count != 2) {
+        user_error_at(list.place_of("materials"),
+                      "{}: {} materials are named; expected \"string materials\" [ \"a\" \"b\" ]",
+                      list.owner(), count);
+    }
+    MixMaterial mix;
+    mix.first = context.material_named(names->strings[0], names->place_of(0));
+    mix.second = context.material_named(names->strings[1], names->place_of(1));
+    mix.amount = number_value(list, "amount", 0.5, context);
+    if (mix.amount.texture < 0 && !(mix.amount.constant >= 0 && mix.amount.constant <= 1)) {
+        user_error_at(list.place_of("amount"), "{}: amount is {}; expected 0 to 1", list.owner(),
+                      mix.amount.constant);
+    }
+    return mix;
+}
+
+// Nothing where no builder serves.
+std::optional<SurfaceMaterial> build_modelled(const std::string& name, ParameterList& list,
+                                              BuildContext& context) {
+    if (name == "diffuse") {
+        return DiffuseMaterial{reflectance_value(list, "reflectance", 0.5, context)};
+    }
+    if (name == "conductor") return build_conductor(list, "", context);
+    if (name == "dielectric") return build_dielectric(list, context);
+    if (name == "thindielectric") return build_thin_dielectric(list, context);
+    if (name == "coatedconductor" || name == "coateddiffuse") {
+        return build_coated(list, name == "coatedconductor", context);
+    }
+    if (name == "diffusetransmission") return build_diffuse_transmission(list, context);
+    if (name == "mix") return build_mix(list, context);
+    if (name == "linearpolariser" || name == "retarder" || name == "circularpolariser") {
+        return build_optical_element(name, list);
+    }
+    return {};
 }
 
 }  // namespace
@@ -35,25 +60,16 @@ std::optional<SurfaceMaterial> build_material(const std::string& name, Parameter
         list.finish(known, context.messages);
         return {};
     }
-    if (name == "diffuse") {
-        DiffuseMaterial diffuse{{reflectance(list, "reflectance", 0.5, context)}};
+    if (std::optional<SurfaceMaterial> material = build_modelled(name, list, context)) {
         list.finish(known, context.messages);
-        return diffuse;
+        return material;
     }
-    if (name == "conductor") {
-        ConductorMaterial conductor = build_conductor(list, "", context);
-        list.finish(known, context.messages);
-        return conductor;
-    }
-    if (name == "coatedconductor") {
-        context.messages.stand_in(list.place(),
-                                  "Material \"coatedconductor\" is not modelled; its conductor "
-                                  "without the coat stands in");
-        ConductorMaterial conductor = build_conductor(list, "conductor.", context);
-        list.ignore(known);
-        return conductor;
-    }
-    return diffuse_stand_in(name, list, context);
+    context.messages.stand_in(list.place(),
+                              fmt::format("Material \"{}\" is not modelled; a diffuse surface of "
+                                          "reflectance 0.5 stands in",
+                                          name));
+    list.ignore(known);
+    return DiffuseMaterial{{constant_spectrum(0.5)}};
 }
 
 }  // namespace drude

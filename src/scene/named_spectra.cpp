@@ -4,23 +4,25 @@
 #include <numeric>
 
 #include "base/numbers.h"
+#include "materials/glasses.h"
 #include "scene/spectra.h"
 
 namespace drude {
 
 namespace {
 
-// Everything pbrt-v4 has a name for (util/spectrum.cpp).
+// Everything pbrt-v4 has a name for (util/spectrum.cpp), and the glasses that it calls F5, F10 and
+// F11 by their own names.
 const std::vector<std::string>& spectrum_names() {
     static const std::vector<std::string> names = {
-        "glass-BK7",      "glass-BAF10",   "glass-FK51A",   "glass-LASF9",  "glass-F5",
-        "glass-F10",      "glass-F11",     "metal-Ag-eta",  "metal-Ag-k",   "metal-Al-eta",
-        "metal-Al-k",     "metal-Au-eta",  "metal-Au-k",    "metal-Cu-eta", "metal-Cu-k",
-        "metal-CuZn-eta", "metal-CuZn-k",  "metal-MgO-eta", "metal-MgO-k",  "metal-TiO2-eta",
-        "metal-TiO2-k",   "stdillum-A",    "stdillum-D50",  "stdillum-D65", "stdillum-F1",
-        "stdillum-F2",    "stdillum-F3",   "stdillum-F4",   "stdillum-F5",  "stdillum-F6",
-        "stdillum-F7",    "stdillum-F8",   "stdillum-F9",   "stdillum-F10", "stdillum-F11",
-        "stdillum-F12",   "illum-acesD60",
+        "glass-BK7",     "glass-BAF10",  "glass-FK51A",    "glass-LASF9",    "glass-F5",
+        "glass-SF5",     "glass-SF10",   "glass-SF11",     "glass-F10",      "glass-F11",
+        "metal-Ag-eta",  "metal-Ag-k",   "metal-Al-eta",   "metal-Al-k",     "metal-Au-eta",
+        "metal-Au-k",    "metal-Cu-eta", "metal-Cu-k",     "metal-CuZn-eta", "metal-CuZn-k",
+        "metal-MgO-eta", "metal-MgO-k",  "metal-TiO2-eta", "metal-TiO2-k",   "stdillum-A",
+        "stdillum-D50",  "stdillum-D65", "stdillum-F1",    "stdillum-F2",    "stdillum-F3",
+        "stdillum-F4",   "stdillum-F5",  "stdillum-F6",    "stdillum-F7",    "stdillum-F8",
+        "stdillum-F9",   "stdillum-F10", "stdillum-F11",   "stdillum-F12",   "illum-acesD60",
     };
     return names;
 }
@@ -41,13 +43,15 @@ SampledTable named_table(const std::string& name, const Place& place, Messages& 
     if (const auto metal = metal_spectrum(name, place, messages)) {
         return {name, metal->set->wavelength_nm, metal->is_k ? metal->set->k : metal->set->n};
     }
+    if (name.rfind("glass-", 0) == 0) {
+        const Glass* glass = find_glass(std::string_view(name).substr(6));
+        if (glass != nullptr) return on_grid(name, dense_index(*glass));
+    }
     if (name == "stdillum-A") return on_grid(name, illuminant_a());
     if (name != "stdillum-D65") {
-        const bool glass = name.rfind("glass-", 0) == 0;
-        messages.stand_in(place, fmt::format("the spectrum '{}' is not in this project; {} stands "
-                                             "in",
-                                             name, glass ? "a constant 1.5" : "stdillum-D65"));
-        if (glass) return on_grid(name, constant_spectrum(1.5));
+        messages.stand_in(place, fmt::format("the spectrum '{}' is not in this project; "
+                                             "stdillum-D65 stands in",
+                                             name));
     }
     return on_grid(name, illuminant_d65());
 }

@@ -11,7 +11,10 @@
 namespace drude {
 
 SceneReader::SceneReader(const std::string& file)
-    : assets_(file), context_{assets_, messages_, textures_} {
+    : assets_(file),
+      context_{assets_, messages_, textures_, [this](const std::string& name, const Place& place) {
+                   return material_reference(name, place);
+               }} {
     scene_.file = file;
     // Index 0 is pbrt's default material.
     scene_.materials.emplace_back(DiffuseMaterial{{constant_spectrum(0.5)}});

@@ -91,6 +91,10 @@ class SceneReader {
     int add_material(const std::string& name, ParameterList& list);
     int area_light_of(const ShapeGeometry& geometry, const Place& place);
     size_t name_slot(const std::string& name, const Place& place);
+    int material_reference(const std::string& name, const Place& place);
+    // The index of Scene::materials, or -1, that a Shape::material or a mix means.
+    int resolved(int material) const;
+    void resolve_mixes();
     void resolve_materials();
     void resolve_materials(std::vector<Shape>& shapes);
     void note_dark_interface(const Place& place);
@@ -109,6 +113,7 @@ class SceneReader {
     std::map<std::string, glm::dmat4, std::less<>> coordinate_systems_;
     std::map<std::string, size_t, std::less<>> material_slots_;
     std::vector<NamedMaterial> named_materials_;
+    std::map<int, Place> mixes_;  // by index of Scene::materials
     std::set<std::string, std::less<>> media_;
     std::map<std::string, std::vector<Shape>, std::less<>> objects_;
     std::vector<Shape>* open_object_ = nullptr;

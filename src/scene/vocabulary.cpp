@@ -10,7 +10,8 @@ namespace {
 
 // "kind name: parameters"; the name "*" gives parameters to everything of its kind. From pbrt-v4's
 // file format documentation and its Create() functions (June 2026). Polarisation is this renderer's
-// own: analyser, retarder, retarderaxis of cameras; dop, aolp, polarisation, sun of lights.
+// own: analyser, retarder, retarderaxis of cameras; dop, aolp, polarisation, sun of lights; the
+// materials linearpolariser, retarder and circularpolariser.
 constexpr std::string_view words = R"(
 Camera *: shutteropen shutterclose analyser retarder retarderaxis
 Camera perspective: frameaspectratio screenwindow lensradius focaldistance fov
@@ -89,6 +90,9 @@ Material hair: sigma_a reflectance color eumelanin pheomelanin eta beta_m beta_n
 Material measured: filename
 Material mix: materials amount
 Material interface:
+Material linearpolariser: axis transmittance
+Material retarder: axis retardance transmittance
+Material circularpolariser: righthanded transmittance
 LightSource *: dop aolp
 LightSource point: I scale power from
 LightSource spot: I scale power from to coneangle conedeltaangle

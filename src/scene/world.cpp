@@ -29,8 +29,10 @@ int SceneReader::add_material(const std::string& name, ParameterList& list) {
     add_defaults(list, "material");
     std::optional<SurfaceMaterial> material = build_material(name, list, context_);
     if (!material) return -1;
+    const int index = static_cast<int>(scene_.materials.size());
+    if (std::holds_alternative<MixMaterial>(*material)) mixes_[index] = list.place();
     scene_.materials.push_back(std::move(*material));
-    return static_cast<int>(scene_.materials.size()) - 1;
+    return index;
 }
 
 void SceneReader::material(const std::string& name, ParameterList list) {
@@ -58,7 +60,47 @@ void SceneReader::make_named_material(const std::string& name, const std::string
 void SceneReader::named_material(const std::string& name, const Place& place) {
     require_world(place, "NamedMaterial");
     // pbrt looks names up at the end, so the definition may still follow.
-    state_.material = slot_reference(name_slot(name, place));
+    state_.material = material_reference(name, place);
+}
+
+int SceneReader::material_reference(const std::string& name, const Place& place) {
+    return slot_reference(name_slot(name, place));
+}
+
+int SceneReader::resolved(int material) const {
+    return material < -1 ? *named_materials_[slot_of(material)].material : material;
+}
+
+// A mix may be made of mixes, but not of itself.
+void SceneReader::resolve_mixes() {
+    for (auto& entry : mixes_) {
+        MixMaterial& mix = std::get<MixMaterial>(scene_.materials[entry.first]);
+        mix.first = resolved(mix.first);
+        mix.second = resolved(mix.second);
+    }
+    std::set<int> done;
+    for (const auto& start : mixes_) {
+        // Depth first; `path` holds the mixes that are being looked into.
+        std::vector<std::pair<int, int>> path{{start.first, 0}};
+        while (!path.empty()) {
+            auto& [index, part] = path.back();
+            if (part == 2 || done.count(index) > 0) {
+                done.insert(index);
+                path.pop_back();
+                continue;
+            }
+            const MixMaterial& mix = std::get<MixMaterial>(scene_.materials[index]);
+            const int next = part++ == 0 ? mix.first : mix.second;
+            if (mixes_.find(next) == mixes_.end()) continue;
+            for (const auto& open : path) {
+                if (open.first != next) continue;
+                user_error_at(mixes_.at(next),
+                              "this mix is made of itself; expected materials that are defined "
+                              "without it");
+            }
+            path.emplace_back(next, 0);
+        }
+    }
 }
 
 void SceneReader::texture(const std::string& name, bool is_spectrum, const std::string& type,
@@ -154,14 +196,14 @@ void SceneReader::resolve_materials() {
         user_error_at(named.first_use, "there is no material '{}'{}; expected a MakeNamedMaterial",
                       shown(named.name), did_you_mean(named.name, names));
     }
+    resolve_mixes();
     resolve_materials(scene_.shapes);
     for (auto& object : objects_) resolve_materials(object.second);
 }
 
 void SceneReader::resolve_materials(std::vector<Shape>& shapes) {
     for (Shape& shape : shapes) {
-        if (shape.material < -1)
-            shape.material = *named_materials_[slot_of(shape.material)].material;
+        shape.material = resolved(shape.material);
         if (shape.material < 0 && shape.area_light >= 0) {
             note_dark_interface(shape.place);
             shape.area_light = -1;

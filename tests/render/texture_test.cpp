@@ -259,13 +259,13 @@ TEST(Textures, MistakesHaveTheirPlace) {
         EXPECT_EQ(message.substr(0, expected.size()), expected);
     };
     begins("Texture \"a\" \"float\" \"checkerboard\" \"string mapping\" \"sperical\"",
-           "t.pbrt:2:54: Texture \"a\": mapping is 'sperical' (did you mean 'spherical'?)");
+           "t.pbrt:2:53: Texture \"a\": mapping is 'sperical' (did you mean 'spherical'?)");
     begins("Texture \"a\" \"float\" \"checkerboard\" \"integer dimension\" 4",
            "t.pbrt:2:56: Texture \"a\": dimension is 4; expected 2 to 3");
     begins("Texture \"a\" \"float\" \"scale\" \"texture tex\" \"b\"",
            "t.pbrt:2:43: there is no float texture 'b'");
     begins("Texture \"a\" \"float\" \"directionmix\" \"vector3 dir\" [0 0 0]",
-           "t.pbrt:2:34: Texture \"a\": dir has no direction");
+           "t.pbrt:2:36: Texture \"a\": dir has no direction");
     begins("Texture \"a\" \"float\" \"bilerp\" \"texture v00\" \"b\"", "t.pbrt:2:");
 }
 

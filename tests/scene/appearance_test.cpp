@@ -113,21 +113,6 @@ TEST(Conductor, ReflectanceStandsForAMetal) {
     for (const double value : metal.reflectance->constant) EXPECT_NEAR(value, 1, 1e-6);
 }
 
-TEST(Materials, OthersHaveStandIns) {
-    const Scene scene = world_of(
-        "Material \"dielectric\" \"float eta\" 1.5\nMaterial \"coateddiffuse\" \"rgb reflectance\" "
-        "[ .2 .2 .2 ]\nMaterial \"coatedconductor\" \"spectrum conductor.eta\" \"metal-Ag-eta\" "
-        "\"spectrum conductor.k\" \"metal-Ag-k\" \"float conductor.roughness\" 0.01");
-    EXPECT_EQ(scene.stand_ins.size(), 3u);
-    EXPECT_NEAR(std::get<DiffuseMaterial>(scene.materials.at(1)).reflectance.constant[100], 0.5,
-                1e-15);
-    EXPECT_NEAR(std::get<DiffuseMaterial>(scene.materials.at(2)).reflectance.constant[100], 0.2,
-                1e-6);
-    const auto metal = std::get<ConductorMaterial>(scene.materials.at(3));
-    EXPECT_EQ(metal.surface.substrate.name, published_set("Ag").name);
-    EXPECT_DOUBLE_EQ(metal.alpha, 0.1);
-}
-
 TEST(Textures, HaveOneValue) {
     const Scene scene = world_of(
         "Texture \"a\" \"spectrum\" \"constant\" \"rgb value\" [ .4 .4 .4 ]\n"
@@ -140,6 +125,28 @@ TEST(Textures, HaveOneValue) {
     EXPECT_NEAR(std::get<DiffuseMaterial>(scene.materials.at(1)).reflectance.constant[7],
                 0.2 * 0.75 + 0.25, 1e-6);
     EXPECT_DOUBLE_EQ(std::get<ConductorMaterial>(scene.materials.at(2)).alpha, 0.3);
+}
+
+TEST(Textures, ThatChangeOverASurfaceAreKept) {
+    const Scene scene = world_of(
+        "Texture \"r\" \"float\" \"checkerboard\" \"float tex1\" 0.04 \"float tex2\" 0.16\n"
+        "Texture \"c\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [.2 .2 .2]\n"
+        "Material \"conductor\" \"texture roughness\" \"r\" \"texture reflectance\" \"c\"\n"
+        "Material \"diffuse\" \"texture reflectance\" \"c\"\n"
+        "Material \"conductor\" \"texture uroughness\" \"r\"\n"
+        "Material \"conductor\" \"texture eta\" \"c\"\n");
+    const auto metal = std::get<ConductorMaterial>(scene.materials.at(1));
+    ASSERT_TRUE(metal.textured_roughness && metal.reflectance);
+    EXPECT_EQ(metal.textured_roughness->roughness.texture, 0);
+    EXPECT_TRUE(metal.textured_roughness->remap);
+    EXPECT_NEAR(metal.alpha, std::sqrt(0.1), 1e-12);
+    EXPECT_EQ(metal.reflectance->texture, 0);
+    EXPECT_NEAR(metal.reflectance->constant[9], 0.1, 1e-6);
+    EXPECT_EQ(std::get<DiffuseMaterial>(scene.materials.at(2)).reflectance.texture, 0);
+    EXPECT_TRUE(std::get<ConductorMaterial>(scene.materials.at(3)).textured_roughness);
+    ASSERT_EQ(scene.stand_ins.size(), 2u);
+    EXPECT_TRUE(contains(scene.stand_ins[0], "that of u stands in for both"));
+    EXPECT_TRUE(contains(scene.stand_ins[1], "'eta' cannot change over a surface here"));
 }
 
 double luminance(const DenseSpectrum& spectrum) {
