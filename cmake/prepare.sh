@@ -9,6 +9,7 @@ build_packages=(
     libusb-1.0-0-dev libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev libyaml-cpp-dev
     libgtest-dev libbenchmark-dev zlib1g-dev
     libumockdev-dev umockdev # virtual USB devices, tests only
+    libopenmpi-dev openmpi-bin # optional: `mpirun ... drude render`, a module of its own
 )
 
 say() { printf '%s\n' "$*" >&2; }

@@ -24,7 +24,8 @@ std::vector<std::pair<std::string, std::string>> FilmJob::fields() const {
             {"transport", std::string(transport_name(transport))},
             {"wavelengths", fmt::format("{}", wavelengths)},
             {"spectral layers", spectral ? "yes" : "no"},
-            {"analyser", analyser},
+            {"analyser", analyser.empty() ? "none" : analyser},
+            {"crop", crop.empty() ? "none" : crop},
             {"version", version},
             {"instruction set", instruction_set}};
 }
@@ -69,7 +70,8 @@ std::map<std::string, Attribute> picture_attributes(const FilmJob& job, uint32_t
     attributes["sceneHash"] = job.scene_hash;
     attributes["transport"] = std::string(transport_name(job.transport));
     attributes["wavelengths"] = job.wavelengths;
-    attributes["analyser"] = job.analyser;
+    if (!job.analyser.empty()) attributes["analyser"] = job.analyser;
+    if (!job.crop.empty()) attributes["crop"] = job.crop;
     attributes["instructionSet"] = job.instruction_set;
     attributes["drudeVersion"] = job.version;
     if (job.spectral) {

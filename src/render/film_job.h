@@ -24,7 +24,8 @@ struct FilmJob {
     Transport transport = Transport::scalar;
     int wavelengths = 8;
     bool spectral = false;
-    std::string analyser = "none";  // before the camera
+    std::string analyser;  // before the camera; empty: none
+    std::string crop;      // which part of a larger picture it is; empty: all of it
     std::string instruction_set, version;
 
     FilmLayout layout() const;

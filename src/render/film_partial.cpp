@@ -91,7 +91,8 @@ FilmPart read_part(const ExrPicture& picture, const std::string& path) {
     job.batch_size = fields.whole("batchSize", 1);
     job.max_depth = fields.whole("maxDepth", 0);
     job.wavelengths = fields.whole("wavelengths", 1);
-    job.analyser = fields.text("analyser");
+    if (picture.attributes.count("analyser")) job.analyser = fields.text("analyser");
+    if (picture.attributes.count("crop")) job.crop = fields.text("crop");
     job.spectral = fields.whole("spectral", 0) != 0;
     job.instruction_set = fields.text("instructionSet");
     job.version = fields.text("drudeVersion");

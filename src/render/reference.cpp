@@ -25,7 +25,6 @@ class ReferenceTracer {
   public:
     ReferenceTracer(const Scene& scene, const ReferenceOptions& options)
         : scene_(scene),
-          options_(options),
           geometry_(scene),
           camera_(scene),
           handedness_(camera_.handedness()),
@@ -172,7 +171,6 @@ class ReferenceTracer {
     static constexpr int most_straight = 10000;
 
     const Scene& scene_;
-    const ReferenceOptions& options_;
     ReferenceGeometry geometry_;
     ReferenceCamera camera_;
     double handedness_;

@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "base/numbers.h"
+#include "image/analyser.h"
 #include "render/batch_tracer.h"
 #include "render/film_checkpoint.h"
 #include "render/film_layers.h"
@@ -91,14 +91,11 @@ void choose_transport(const Scene& scene, const RenderOptions& options, RenderSu
     }
 }
 
-std::string analyser_text(const std::optional<Analyser>& analyser) {
-    if (!analyser) return "none";
-    std::string text = format_double(analyser->axis_deg);
-    if (const auto& retarder = analyser->retarder) {
-        text += fmt::format(",retarder={}:{}", format_double(retarder->fast_axis_deg),
-                            format_double(retarder->retardance_deg));
-    }
-    return text;
+// Which part of a larger picture is rendered; empty for the whole.
+std::string crop_text(const Film& film) {
+    if (!film.crop) return "";
+    return fmt::format("from {},{} of {}x{}", film.crop->x0, film.crop->y0, film.crop->whole_width,
+                       film.crop->whole_height);
 }
 
 // Part i of n of the part's batches, as even as whole batches allow.
@@ -129,7 +126,8 @@ FilmPart part_for(const Scene& scene, const RenderOptions& options, const Render
     job.transport = summary.transport;
     job.wavelengths = summary.wavelengths;
     job.spectral = options.spectral;
-    job.analyser = analyser_text(scene.camera.analyser);
+    if (scene.camera.analyser) job.analyser = format_analyser(*scene.camera.analyser);
+    job.crop = crop_text(scene.film);
     job.instruction_set = fmt::format("{}/{}", DRUDE_ISA, isa);
     job.version = DRUDE_VERSION;
     part.batches = open ? 0 : batches;

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "materials/scalar.h"
+#include "render/reference_light.h"
 
 namespace drude {
 
@@ -114,13 +115,6 @@ double finite(double value) {
     return std::isfinite(value) ? value : 0;
 }
 
-double on_grid(const DenseSpectrum& spectrum, double nm) {
-    const double x = std::clamp(nm - spectrum_first_nm, 0.0, spectrum_size - 1.0);
-    const auto below = std::min(static_cast<size_t>(x), spectrum.size() - 2);
-    const double t = x - static_cast<double>(below);
-    return spectrum[below] * (1 - t) + spectrum[below + 1] * t;
-}
-
 }  // namespace
 
 glm::dvec2 texture_coordinates(const TextureMapping& mapping, const TexturePoint& at) {
@@ -183,11 +177,11 @@ double NumberTextures::textured(int index, const TexturePoint& at) const {
 
 double spectrum_texture_value(const Scene& scene, const NumberTextures& numbers,
                               const SpectrumValue& value, const TexturePoint& at, double nm) {
-    if (value.texture < 0) return on_grid(value.constant, nm);
+    if (value.texture < 0) return spectrum_at(value.constant, nm);
     double sum = 0;
     if (const auto& picture = numbers.spectrum_pictures()[value.texture]) {
         const glm::dvec3 rgb = picture->rgb(texture_coordinates(picture->mapping(), at));
-        for (int c = 0; c < 3; ++c) sum += rgb[c] * on_grid(mallett_yuksel_basis()[c], nm);
+        for (int c = 0; c < 3; ++c) sum += rgb[c] * spectrum_at(mallett_yuksel_basis()[c], nm);
         return finite(sum);
     }
     const Texture<SpectrumValue>& texture = scene.spectrum_textures[value.texture];

@@ -267,5 +267,31 @@ TEST(MakeFolder, MakesParentsAndTakesWhatIsThere) {
     expect_error(Cause::outside, {"cannot create"}, [] { make_folder(""); });
 }
 
+// What processes left behind that were killed goes, and nothing else.
+TEST(AbandonedFiles, OfDeadProcessesAreRemovedAndNoOthers) {
+    const TemporaryFolder folder;
+    const pid_t child = fork();
+    if (child == 0) _exit(0);
+    waitpid(child, nullptr, 0);  // no process has its number now
+    const std::string dead = std::to_string(child), alive = std::to_string(getpid());
+    const std::string removed = ".a.checkpoint." + dead + "-3.tmp.exr";
+    const std::vector<std::string> kept = {".a.checkpoint." + alive + "-0.tmp.exr",
+                                           ".b." + dead + "-0.tmp.exr",
+                                           ".a.checkpoint." + dead + ".tmp.exr",
+                                           ".a.checkpoint.0-0.tmp.exr",
+                                           ".a.checkpoint.-1-0.tmp.exr",
+                                           ".a.checkpoint.x-0.tmp.exr",
+                                           "a.checkpoint." + dead + "-0.tmp.exr",
+                                           ".a.checkpoint." + dead + "-3.tmp.png"};
+    for (const std::string& name : kept) write_file(folder.file(name), "x");
+    write_file(folder.file(removed), "x");
+    remove_abandoned_files(folder.file("a.checkpoint.exr"));
+    EXPECT_FALSE(std::filesystem::exists(folder.file(removed)));
+    for (const std::string& name : kept) {
+        EXPECT_TRUE(std::filesystem::exists(folder.file(name))) << name;
+    }
+    remove_abandoned_files(folder.file("no-folder/a.exr"));
+}
+
 }  // namespace
 }  // namespace drude

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "image/exr_rows.h"
 #include "image/image.h"
 #include "shared_data.h"
 #include "temporary_folder.h"
@@ -290,6 +291,43 @@ TEST(Exr, ReadsTheSpectralPolarisedPictureOfAnotherRenderer) {
     }
     EXPECT_GT(polarised, 0.0);
     for (const char* name : {"R", "G", "B"}) EXPECT_NE(image.find(name), nullptr);
+}
+
+// Rows of whole numbers and floats come back bit for bit, in any order of reading.
+TEST(ExrRows, WordsComeBackAsTheyWent) {
+    const TemporaryFolder folder;
+    ExrPicture picture;
+    picture.width = 13;
+    picture.height = 70;  // more than are read at once
+    picture.channels = {{"a", ExrSamples::uint32}, {"b", ExrSamples::float32}};
+    picture.attributes["note"] = std::string("sums");
+    const auto word = [](int c, int x, int y) {
+        // Whole numbers of all bits; floats without NaN, whose bits need not survive.
+        const uint32_t mixed =
+            static_cast<uint32_t>(c * 7919 + x * 104729 + y * 1299709) * 2654435761u;
+        return c == 0 ? mixed : mixed & 0xbf7fffffu;
+    };
+    for (const Compression compression : {Compression::none, Compression::piz, Compression::zip}) {
+        write_exr_rows(folder.file("a.exr"), picture, compression, [&](int y, uint32_t* words) {
+            for (int c = 0; c < 2; ++c) {
+                for (int x = 0; x < 13; ++x) *words++ = word(c, x, y);
+            }
+        });
+        ExrRowReader reader(folder.file("a.exr"));
+        ASSERT_EQ(reader.picture().channels.size(), 2U);
+        EXPECT_EQ(reader.picture().channels[0].samples, ExrSamples::uint32);
+        EXPECT_EQ(reader.picture().attributes, picture.attributes);
+        for (const int y : {0, 69, 31, 32, 5, 68, 40}) {
+            std::vector<uint32_t> words(26);
+            reader.read(y, words.data());
+            for (int i = 0; i < 26; ++i) ASSERT_EQ(words[i], word(i / 13, i % 13, y)) << y;
+        }
+    }
+    // What the source throws is passed on, and no file is left.
+    EXPECT_THROW(write_exr_rows(folder.file("b.exr"), picture, Compression::piz,
+                                [](int, uint32_t*) { throw std::out_of_range("row"); }),
+                 std::out_of_range);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a.exr"});
 }
 
 }  // namespace

@@ -208,7 +208,11 @@ TEST(Camera, AgreesWithTheReferenceIntegrators) {
                     const ReferenceRay slow = reference.ray(x, y);
                     expect_near(fast.o, slow.o);
                     expect_near(fast.d, slow.d);
-                    expect_near(fast.horizontal, slow.horizontal, 1e-5);
+                    // In float the horizontal is the less certain the closer the ray is to camera
+                    // y.
+                    const double sine = glm::length(glm::cross(
+                        slow.d, glm::normalize(glm::dvec3(scene.camera.world_from_camera[1]))));
+                    expect_near(fast.horizontal, slow.horizontal, 1e-6 / std::max(sine, 1e-3));
                 }
             }
         }

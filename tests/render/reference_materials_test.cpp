@@ -32,12 +32,18 @@ Scene scene_of(const std::string& material, const std::string& more = "", int de
         "glass.pbrt");
 }
 
+// The three bins share their paths and the whole picture its blocks, so that the mean square of so
+// few deviations says little: what counts is the largest, corrected for their number.
+void expect_same(const BlockMeans& rendered, const BlockMeans& reference, size_t rows) {
+    const Agreement result = agreement(rendered, reference, rows);
+    EXPECT_GT(result.p, 1e-3) << result.tests << " tests; " << result.worst;
+}
+
 void compare(const Scene& scene, int reference_samples = 4096,
              Directions directions = Directions::lobe) {
     const BlockMeans reference = reference_blocks(scene, reference_samples, 4, directions, 9);
-    const BlockMeans stokes = rendered_blocks(scene, Transport::stokes, 64, 4, 12);
-    expect_agreement(stokes, reference, 4);
-    expect_agreement(rendered_blocks(scene, Transport::intensity, 64, 4, 12), reference, 1);
+    expect_same(rendered_blocks(scene, Transport::stokes, 64, 4, 12), reference, 4);
+    expect_same(rendered_blocks(scene, Transport::intensity, 64, 4, 12), reference, 1);
 }
 
 // Under an even sky clear glass cannot be seen, whatever path light took: every weight is one.

@@ -17,8 +17,9 @@ namespace {
 const std::string scenes = DRUDE_SOURCE_DIR "/scenes/";
 
 TEST(OwnScenes, AreReadWithoutStandIns) {
-    for (const char* name : {"half-sphere.pbrt", "furnace.pbrt", "cornell-metals.pbrt",
-                             "two-metals.pbrt", "gold-teapot.pbrt", "material-orb.pbrt"}) {
+    for (const char* name :
+         {"half-sphere.pbrt", "furnace.pbrt", "cornell-metals.pbrt", "two-metals.pbrt",
+          "gold-teapot.pbrt", "material-orb.pbrt", "crossed-polarisers.pbrt"}) {
         const Scene scene = read_scene(scenes + name);
         EXPECT_TRUE(scene.stand_ins.empty()) << name << ": " << scene.stand_ins[0];
         EXPECT_FALSE(scene.shapes.empty()) << name;
