@@ -53,6 +53,18 @@ run(${drude} compare ${WORK}/1.exr ${WORK}/built-in.exr --any-scene --channels S
 run_refused(1 "" ${drude} compare ${WORK}/1.exr ${WORK}/built-in.exr --any-scene
             --tolerance 0.0005,0.0005,1)
 
+# Elements that change their sign with phi_d: a mirrored world with mirrored coordinates gives the
+# same picture, and only then.
+file(COPY_FILE ${CMAKE_CURRENT_LIST_DIR}/sideways.pbrdf ${WORK}/scene/copper.pbrdf)
+string(REPLACE "LookAt" "Scale -1 1 1\nLookAt" mirrored "${scene}")
+string(REPLACE "[ -2 3 -3 ]" "[ 2 3 -3 ]" mirrored "${mirrored}")
+file(WRITE ${WORK}/scene/mirrored.pbrt "${mirrored}")
+foreach(hand sphere mirrored)
+  run(${drude} render ${WORK}/scene/${hand}.pbrt -o ${WORK}/${hand}.exr --transport stokes
+      --spp 256 --quiet)
+endforeach()
+run(${drude} compare ${WORK}/sphere.exr ${WORK}/mirrored.exr --any-scene)
+
 # A table that breaks off is an error with file and line, at the scene's own line.
 file(WRITE ${WORK}/scene/copper.pbrdf "pbrdf-table 1\nwavelengths_nm 2 400 x")
 run_refused(2 "copper.pbrdf:2: expected a finite number" ${drude} render
