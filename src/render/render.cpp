@@ -208,6 +208,10 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     film.summary.interrupted = result.interrupted;
     film.summary.checkpoints = result.checkpoints;
     film.summary.checkpoint_seconds = result.checkpoint_seconds;
+    if (!result.checkpoint_error.empty()) {
+        film.summary.warnings.push_back(
+            fmt::format("a checkpoint could not be written: {}", result.checkpoint_error));
+    }
     summarise(&film);
     return film;
 }

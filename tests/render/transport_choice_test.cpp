@@ -96,7 +96,7 @@ TEST(TransportChoice, LooksIntoTheOpenHalfSphere) {
     EXPECT_EQ(cheapest_exact_transport(on_floor, 6).transport, Transport::intensity);
     // Nor may its camera stand anywhere but at one point.
     EXPECT_EQ(cheapest_exact_transport(
-                  scene_of(dome, "Camera \"perspective\" \"float lensradius\" 0.1"), 6)
+                  scene_of(dome, "Camera \"perspective\" \"float lensradius\" 0.1\n"), 6)
                   .transport,
               Transport::intensity);
 }

@@ -64,6 +64,8 @@ TEST(StoredVariance, IsThatBetweenSeedsOnEveryScene) {
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(DRUDE_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() != ".pbrt") continue;
+        // Its geometry is not the project's: the reader brings it.
+        if (entry.path().filename() == "killeroo-gold.pbrt") continue;
         ++scenes;
         Scene scene = read_scene(entry.path().string());
         set_resolution(size_for(entry.path().stem().string()), "size", &scene);
