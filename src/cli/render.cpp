@@ -100,7 +100,7 @@ void write_and_report(const Options& options, const RenderOptions& render_option
                       const CommonOptions& common, std::chrono::steady_clock::time_point start,
                       RenderedFilm* film) {
     RenderSummary& summary = film->summary;
-    const std::vector<std::string> more = count_warnings(film->part.counts);
+    const std::vector<std::string> more = count_warnings(film->part.counts, summary.plugins);
     summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
     for (const std::string& warning : summary.warnings) {
         fmt::print(stderr, "drude: warning: {}\n", warning);
@@ -243,6 +243,9 @@ Command render_command() {
         "on any number of threads.\n\n"
         "--environment FILE puts another picture around the scene (lat-long or equal-area; "
         "'courtyard' is made by the program).\n\n"
+        "Material \"NAME\" of a scene may be a plugin: NAME.so in a folder of the environment "
+        "variable "
+        "DRUDE_PLUGIN_PATH (folders separated by colons).\n\n"
         "A picture ends at --spp samples a pixel, after --time seconds of rendering, or once its "
         "relative error is estimated to be at most --error, whichever of those given comes first; "
         "always with as many whole batches of samples (16 each) in every pixel. The error is the "

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "materials/frame.h"
+#include "render/plugin_scattering.h"
 #include "render/throughput.h"
 
 namespace drude {
@@ -24,6 +25,13 @@ struct Beam {
                  const Packet<N>& reflectance, float weight, float) {
         throughput.depolarise(reflectance * Packet<N>(weight));
         x = any_perpendicular(arriving);
+    }
+    // The same for matrices that take this frame, on `out`, from one of their own.
+    void scatter(const glm::vec3&, const glm::vec3&, const glm::vec3&, const DenseOptics<N>& r,
+                 float weight, float) {
+        throughput.apply(r.mueller);
+        throughput.scale(weight);
+        x = r.x_in;
     }
 };
 

@@ -58,6 +58,10 @@ class CameraRays {
         for (int i = 0; i < 4; ++i) window_[i] = camera.screen_window[i];
         step_x_ = (window_[1] - window_[0]) / width;
         step_y_ = (window_[3] - window_[2]) / height;
+        corner_ = axes_ * glm::dvec3(window_[0] * tangent_, window_[3] * tangent_, 1);
+        along_x_ = axes_[0] * (step_x_ * tangent_);
+        along_y_ = axes_[1] * (-step_y_ * tangent_);
+        is_pinhole_ = kind_ == CameraKind::perspective && !(lens_radius_ > 0);
         up_ = glm::vec3(glm::normalize(axes_[1]));
         right_ = glm::vec3(glm::normalize(axes_[0]));
     }
@@ -70,6 +74,9 @@ class CameraRays {
     // (x, y) in pixels, y downwards from the top edge; lens_u uniform in [0, 1)^2, of which
     // (0.5, 0.5) is the middle of the lens.
     CameraRay operator()(double x, double y, const glm::vec2& lens_u = {0.5f, 0.5f}) const {
+        if (is_pinhole_) {
+            return ray(glm::vec3(origin_), glm::vec3(corner_ + x * along_x_ + y * along_y_));
+        }
         const double right = window_[0] + x * step_x_, up = window_[3] - y * step_y_;
         glm::dvec3 from(0), towards;
         switch (kind_) {
@@ -81,7 +88,7 @@ class CameraRays {
                 towards = {0, 0, 1};
                 break;
             case CameraKind::spherical:
-                return ray(from, direction_around(right, 1 - up));
+                return camera_ray(from, direction_around(right, 1 - up));
         }
         if (lens_radius_ > 0) {
             // All rays of a point of the picture meet in the plane of focus.
@@ -89,17 +96,22 @@ class CameraRays {
             towards = towards * focal_distance_ - lens;
             from += lens;
         }
-        return ray(from, towards);
+        return camera_ray(from, towards);
     }
 
   private:
-    CameraRay ray(const glm::dvec3& from, const glm::dvec3& towards) const {
-        const glm::dvec3 o = from == glm::dvec3(0) ? origin_ : origin_ + axes_ * from;
-        const glm::vec3 d(glm::normalize(axes_ * towards));
+    // In camera space.
+    CameraRay camera_ray(const glm::dvec3& from, const glm::dvec3& towards) const {
+        return ray(glm::vec3(origin_ + axes_ * from), glm::vec3(axes_ * towards));
+    }
+
+    // In the world; `towards` of any length.
+    CameraRay ray(const glm::vec3& o, const glm::vec3& towards) const {
+        const glm::vec3 d = glm::normalize(towards);
         // Across the ray and the camera's own up; where the ray runs along it, camera x serves.
         glm::vec3 across = glm::cross(d, up_);
         if (glm::dot(across, across) < 1e-12f) across = right_ - glm::dot(right_, d) * d;
-        return {glm::vec3(o), d, glm::normalize(across)};
+        return {o, d, glm::normalize(across)};
     }
 
     // Camera space; u, v from 0 to 1 over the whole picture, v downwards. Both mappings have
@@ -117,6 +129,9 @@ class CameraRays {
     bool equal_area_;
     glm::dmat3 axes_;
     glm::dvec3 origin_;
+    // Of a pinhole: the direction of the upper left corner, and its steps a pixel.
+    glm::dvec3 corner_{0}, along_x_{0}, along_y_{0};
+    bool is_pinhole_ = false;
     glm::vec3 up_{0, 1, 0}, right_{1, 0, 0};
     double tangent_, window_[4], step_x_, step_y_;
     double lens_radius_, focal_distance_;

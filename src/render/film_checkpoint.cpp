@@ -47,6 +47,10 @@ void CheckpointClock::written(Clock::time_point begun) {
     wait(taken);
 }
 
+void CheckpointClock::failed(Clock::time_point begun) {
+    wait(std::chrono::duration<double>(Clock::now() - begun).count());
+}
+
 bool resume_from(const std::string& path, bool allow_mixed, FilmPart* part, FilmSums* sums) {
     remove_abandoned_files(path);
     std::error_code error;
@@ -93,7 +97,7 @@ bool resume_from(const std::string& path, bool allow_mixed, FilmPart* part, Film
 
 void remove_checkpoint(const std::string& path) {
     std::error_code error;
-    std::filesystem::remove(path, error);
+    if (std::filesystem::is_regular_file(path, error)) std::filesystem::remove(path, error);
 }
 
 }  // namespace drude

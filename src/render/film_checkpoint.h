@@ -25,6 +25,8 @@ class CheckpointClock {
     bool due() const { return enabled_ && Clock::now() >= next_; }
     // After a checkpoint that was begun at `begun`.
     void written(Clock::time_point begun);
+    // After one that could not be written; the next try comes as if it had been.
+    void failed(Clock::time_point begun);
 
     int count() const { return count_; }
     double seconds() const { return seconds_; }  // spent on writing

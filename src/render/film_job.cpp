@@ -84,19 +84,23 @@ std::map<std::string, Attribute> picture_attributes(const FilmJob& job, uint32_t
     return attributes;
 }
 
-std::vector<std::string> count_warnings(const FilmCounts& counts) {
+std::vector<std::string> count_warnings(const FilmCounts& counts,
+                                        const std::vector<std::string>& plugins) {
     std::vector<std::string> warnings;
+    const std::string advice =
+        plugins.empty() ? "please report this as a bug"
+                        : fmt::format(
+                              "look into what the plugin {} returns (docs/plugins.md), and "
+                              "report it as a bug where that is right",
+                              fmt::join(plugins, ", "));
     if (counts.projections > 0) {
         warnings.push_back(fmt::format(
-            "{} contributions were outside the cone of physical light by more than rounding; "
-            "please report this as a bug",
-            counts.projections));
+            "{} contributions were outside the cone of physical light by more than rounding; {}",
+            counts.projections, advice));
     }
     if (counts.not_finite > 0) {
-        warnings.push_back(
-            fmt::format("{} contributions were not numbers and were dropped; please report this "
-                        "as a bug",
-                        counts.not_finite));
+        warnings.push_back(fmt::format("{} contributions were not numbers and were dropped; {}",
+                                       counts.not_finite, advice));
     }
     if (counts.out_of_range > 0) {
         warnings.push_back(fmt::format(

@@ -64,7 +64,9 @@ struct FilmPart {
 std::map<std::string, Attribute> picture_attributes(const FilmJob& job, uint32_t first,
                                                     uint32_t fewest);
 
-// What a user should know of counts that should be 0.
-std::vector<std::string> count_warnings(const FilmCounts& counts);
+// What a user should know of counts that should be 0. Where the scene has plugins, they are the
+// first to be asked.
+std::vector<std::string> count_warnings(const FilmCounts& counts,
+                                        const std::vector<std::string>& plugins = {});
 
 }  // namespace drude

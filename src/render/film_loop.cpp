@@ -7,6 +7,7 @@
 #include <chrono>
 #include <optional>
 
+#include "base/error.h"
 #include "base/executor.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
@@ -93,7 +94,7 @@ class FilmLoop {
             part_.fewest = sums_.fewest_batches();
             if (part_.fewest >= target) return true;
             if (may_stop && interrupted()) return false;
-            if (paused) save();
+            if (paused) save_now_and_then();
         }
     }
 
@@ -136,12 +137,23 @@ class FilmLoop {
         clock_.written(begun);
     }
 
+    // A disk that is full for now is no reason to give up what is rendered.
+    void save_now_and_then() {
+        const Clock::time_point begun = Clock::now();
+        try {
+            save();
+        } catch (const Error& error) {
+            checkpoint_error_ = error.message();
+            clock_.failed(begun);
+        }
+    }
+
     FilmLoopResult finish(bool interrupted_here) {
         progress_.reset();
         part_.fewest = sums_.fewest_batches();
         if (interrupted_here && !options_.checkpoint.empty()) save();
         add_up_counts();
-        return {interrupted_here, clock_.count(), clock_.seconds()};
+        return {interrupted_here, clock_.count(), clock_.seconds(), checkpoint_error_};
     }
 
     const BatchTracer& tracer_;
@@ -152,6 +164,7 @@ class FilmLoop {
     std::vector<FilmCounts> tile_counts_;
     const FilmCounts earlier_;  // of the runs that this one resumes
     CheckpointClock clock_;
+    std::string checkpoint_error_;
     std::optional<Progress> progress_;
     const Clock::time_point start_ = Clock::now();
 };

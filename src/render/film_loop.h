@@ -21,6 +21,7 @@ struct FilmLoopResult {
     bool interrupted = false;
     int checkpoints = 0;
     double checkpoint_seconds = 0;
+    std::string checkpoint_error;  // of the last checkpoint that could not be written
 };
 
 // Adds batches from part->first on to what `sums` holds of them, and keeps part->fewest and

@@ -2,8 +2,8 @@
 //
 // A picture that was rendered in one go, in shards, or in a run that was killed and resumed holds
 // the same batches in another order of adding; these sums are equal in all three, bit by bit.
-// Memory is 52 bytes a pixel for R, G, B and their squares, 304 with S0 to S3, and 520 more a row
-// of spectral layers, whatever the number of samples.
+// Memory is 77 bytes a pixel for R, G, B and their squares, 296 with S0 to S3, and 520 more for
+// each of the rows with spectral layers, whatever the number of samples.
 #pragma once
 
 #include <cstdint>

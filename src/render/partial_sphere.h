@@ -52,14 +52,14 @@ class PartialSphere : public RoundFrame {
     double intersect(const glm::dvec3& o_world, const glm::dvec3& d_world, double t_min,
                      double t_max) const {
         const glm::dvec3 o = to_object(o_world), d = direction_to_object(d_world);
-        const double a = glm::dot(d, d);
+        const double a = glm::dot(d, d), over_a = 1 / a;
         const double b = -glm::dot(o, d);
-        const glm::dvec3 closest = o + (b / a) * d;
+        const glm::dvec3 closest = o + (b * over_a) * d;
         const double gap = radius_ * radius_ - glm::dot(closest, closest);
         if (!(gap >= 0)) return -1;
         const double c = glm::dot(o, o) - radius_ * radius_;
         const double q = b + std::copysign(std::sqrt(a * gap), b);
-        double t0 = c / q, t1 = q / a;
+        double t0 = c / q, t1 = q * over_a;
         if (t0 > t1) std::swap(t0, t1);
         for (const double t : {t0, t1}) {
             if (t > t_min && t < t_max && keeps(o + t * d)) return t;

@@ -5,6 +5,7 @@
 #include "render/camera_ray.h"
 #include "render/lights.h"
 #include "render/optical_elements.h"
+#include "render/plugin_scattering.h"
 #include "render/sampler.h"
 #include "render/spectral_tables.h"
 #include "render/surface_scattering.h"
@@ -145,6 +146,10 @@ class Path {
         }
         return with_conductor(v, std::get<ConductorTables<N>>(coat.base),
                               [&](const auto& base) { return walk_in_coat(v, coat, base); });
+    }
+    bool scatter_at(const Vertex& v, const PluginTables<N>& plugin) {
+        return scatter(v, PluginScattering<N>(plugin, phase_, v, beam_.x, h_,
+                                              {statistics_.projections, statistics_.not_finite}));
     }
     // Neither is part of what is hit.
     bool scatter_at(const Vertex&, const MixTables&) { return false; }
@@ -323,6 +328,12 @@ class Path {
             beam.scatter(v.out, -l.d, v.to_world(m), r, 1, h_);
             add_light(v, l, beam, weight);
         }
+    }
+    void add_light(const Vertex& v, const Lights::Sample& l, const DenseOptics<N>& r,
+                   const glm::vec3& m, float weight) {
+        Beam<transport, N> beam = beam_;
+        beam.scatter(v.out, -l.d, m, r, 1, h_);
+        add_light(v, l, beam, weight);
     }
     // Light comes unpolarised and nothing stands in its way.
     bool is_plain() const { return setup_.elements.empty() && !polarised_; }

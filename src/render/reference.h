@@ -14,8 +14,8 @@
 //              reflectance), dielectrics, smooth or rough, and thin ones, coats, as a walk between
 //              their two surfaces, diffusers, mixtures, and optical elements, straight through
 //              which light is found; textures count with their typical value. Where an index
-//              changes with wavelength, a path has one wavelength. Plugins are refused, and coats
-//              in scenes with lights that have no size;
+//              changes with wavelength, a path has one wavelength. Plugins are asked for one
+//              wavelength at a time. Coats are refused in scenes with lights that have no size;
 //   lights     area lights (one- or two-sided), infinite lights (constant, lat-long, equal-area),
 //              distant and point lights and spots. The last three have no size to walk into:
 //              wherever a path meets a surface that is not smooth, their term

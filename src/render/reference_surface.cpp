@@ -6,6 +6,7 @@
 #include "materials/optical_elements.h"
 #include "materials/surface.h"
 #include "render/reference_light.h"
+#include "scene/plugin_surface.h"
 
 namespace drude {
 
@@ -41,6 +42,30 @@ Matrix depolariser(double reflectance) {
 
 double clamped(double cosine) {
     return std::min(1.0, cosine);
+}
+
+// Local directions and frames, both on the side of the path.
+Matrix plugin_matrix(const PluginSurface& surface, double nm, const Vec& in, const Vec& in_frame,
+                     const Vec& out, const Vec& out_frame, double handedness) {
+    const auto copy = [](const Vec& from, float(&to)[3]) {
+        for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(from[c]);
+    };
+    DrudeDirections directions;
+    copy(out, directions.out);
+    copy(in, directions.in);
+    copy(out_frame, directions.x_out);
+    copy(in_frame, directions.x_in);
+    directions.handedness = static_cast<float>(handedness);
+    const float wavelength = static_cast<float>(nm);
+    float elements[16] = {};
+    surface.evaluate(directions, &wavelength, 1, elements);
+    Matrix m;
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            m.m[row][column] = static_cast<double>(elements[4 * row + column]);
+        }
+    }
+    return m;
 }
 
 const DenseSpectrum& diffuse_reflectance(const DiffuseMaterial& diffuse) {
@@ -79,8 +104,6 @@ ReferenceSurfaces::ReferenceSurfaces(const Scene& scene, ReferenceOptions::Direc
                 const double eta = coated->eta[550 - spectrum_first_nm];
                 prepared.metal = {base, seen_from(base->surface, eta), lobe_of(*base)};
             }
-        } else if (std::holds_alternative<PluginMaterial>(material)) {
-            user_error("the reference integrator knows no materials of plugins");
         }
     }
 }
@@ -155,6 +178,11 @@ Matrix ReferenceSurfaces::scatter(int material, double nm, const ReferenceVertex
     }
     const Axes axes(v.n);
     const Vec o = axes.to_local(v.out), i = axes.to_local(in);
+    if (const auto* plugin = std::get_if<PluginMaterial>(&surface)) {
+        if (!(i.z > 0)) return depolariser(0);
+        return plugin_matrix(*plugin->surface, nm, i, axes.to_local(in_frame), o,
+                             axes.to_local(v.frame), handedness_);
+    }
     const Prepared& prepared = prepared_[material];
     if (std::holds_alternative<ConductorMaterial>(surface)) {
         const auto e = prepared.metal.lobe.evaluate(o, i);
@@ -194,6 +222,10 @@ std::optional<ReferenceSurfaces::Step> ReferenceSurfaces::choose(int material,
     }
     if (std::holds_alternative<ThinDielectricMaterial>(surface)) {
         return choose_plate(material, nm, v, random);
+    }
+    if (std::holds_alternative<PluginMaterial>(surface) &&
+        directions_ == ReferenceOptions::Directions::lobe) {
+        return choose_as_plugin(material, nm, v, random);
     }
     const bool is_glass = std::holds_alternative<DielectricMaterial>(surface);
     const bool both_sides =
@@ -286,6 +318,28 @@ std::optional<ReferenceSurfaces::Step> ReferenceSurfaces::choose_plate(
         step.worth.push_back(scaled(between(reflects ? light.reflected : light.transmitted, v.n,
                                             step.in, step.in_frame, v.out, v.frame),
                                     2));
+    }
+    return step;
+}
+
+std::optional<ReferenceSurfaces::Step> ReferenceSurfaces::choose_as_plugin(
+    int material, const std::vector<double>& nm, const ReferenceVertex& v,
+    ReferenceRandom& random) const {
+    const auto& plugin = std::get<PluginMaterial>(scene_.materials[material]);
+    const Axes axes(v.n);
+    const Vec o = axes.to_local(v.out);
+    const float out[3] = {static_cast<float>(o.x), static_cast<float>(o.y),
+                          static_cast<float>(o.z)};
+    float u[3], in[3] = {0, 0, 0}, pdf = 0;
+    // Below 1 in float too.
+    for (float& number : u) number = std::min(static_cast<float>(random()), 0x1.fffffep-1f);
+    if (!plugin.surface->sample(out, u, in, &pdf) || !(pdf > 0)) return {};
+    Step step;
+    step.in = axes.to_world({in[0], in[1], in[2]});
+    step.in_frame = any_perpendicular(step.in);
+    for (const double at : nm) {
+        step.worth.push_back(
+            scaled(scatter(material, at, v, step.in, step.in_frame), 1 / static_cast<double>(pdf)));
     }
     return step;
 }

@@ -84,6 +84,8 @@ class ReferenceSurfaces {
     std::optional<Step> choose_evenly(int material, const std::vector<double>& nm,
                                       const ReferenceVertex& v, bool both_sides,
                                       ReferenceRandom& random) const;
+    std::optional<Step> choose_as_plugin(int material, const std::vector<double>& nm,
+                                         const ReferenceVertex& v, ReferenceRandom& random) const;
     std::optional<Step> walk_in_coat(int material, const std::vector<double>& nm,
                                      const ReferenceVertex& v, ReferenceRandom& random) const;
 

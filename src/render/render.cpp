@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 #include "image/analyser.h"
@@ -136,6 +137,15 @@ FilmPart part_for(const Scene& scene, const RenderOptions& options, const Render
     return part;
 }
 
+std::vector<std::string> plugins_of(const Scene& scene) {
+    std::set<std::string> names;
+    for (const SurfaceMaterial& material : scene.materials) {
+        const auto* plugin = std::get_if<PluginMaterial>(&material);
+        if (plugin != nullptr) names.insert(plugin->name);
+    }
+    return {names.begin(), names.end()};
+}
+
 // A checkpoint that is there: gone on from, or said that it is not.
 void take_up(const RenderOptions& options, RenderedFilm* film) {
     RenderSummary& summary = film->summary;
@@ -158,6 +168,7 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     check_options(options);
     RenderSummary summary;
     summary.warnings = scene.warnings;
+    summary.plugins = plugins_of(scene);
     choose_transport(scene, options, &summary);
     summary.wavelengths =
         options.wavelengths ? options.wavelengths : (options.spectral ? spectral_bins : 8);
@@ -197,6 +208,10 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     film.summary.interrupted = result.interrupted;
     film.summary.checkpoints = result.checkpoints;
     film.summary.checkpoint_seconds = result.checkpoint_seconds;
+    if (!result.checkpoint_error.empty()) {
+        film.summary.warnings.push_back(
+            fmt::format("a checkpoint could not be written: {}", result.checkpoint_error));
+    }
     summarise(&film);
     return film;
 }
@@ -218,7 +233,7 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
     const RenderedFilm film = render_film(scene, options);
     RenderResult result;
     static_cast<RenderSummary&>(result) = film.summary;
-    const std::vector<std::string> more = count_warnings(film.part.counts);
+    const std::vector<std::string> more = count_warnings(film.part.counts, film.summary.plugins);
     result.warnings.insert(result.warnings.end(), more.begin(), more.end());
     Image& image = result.image;
     image.width = film.part.job.width;

@@ -60,6 +60,7 @@ struct RenderSummary {
     double checkpoint_seconds = 0;
     std::optional<double> error;  // relative_error(); of two batches or more
     std::vector<std::string> warnings;
+    std::vector<std::string> plugins;  // the scene's, by name, each once
 };
 
 struct RenderResult : RenderSummary {

@@ -19,33 +19,30 @@ class RoundFrame {
   public:
     // phi_max_deg in (0, 360]; `extent`: no point of the surface is farther from its own origin.
     RoundFrame(const glm::dmat4& world_from_object, double phi_max_deg, double extent)
-        : world_from_object_(world_from_object),
-          object_from_world_(glm::inverse(world_from_object)),
+        : to_world_(world_from_object),
+          world_origin_(world_from_object[3]),
           phi_max_(phi_max_deg >= 360 ? 2 * pi : phi_max_deg * pi / 180),
           all_round_(phi_max_deg >= 360) {
-        double size = glm::length(glm::dvec3(world_from_object_[3]));
-        for (int i = 0; i < 3; ++i) size += extent * glm::length(glm::dvec3(world_from_object_[i]));
+        const glm::dmat4 inverse = glm::inverse(world_from_object);
+        to_object_ = glm::dmat3(inverse);
+        object_origin_ = glm::dvec3(inverse[3]);
+        normal_to_world_ = glm::transpose(to_object_);
+        double size = glm::length(world_origin_);
+        for (int i = 0; i < 3; ++i) size += extent * glm::length(to_world_[i]);
         rounding_ = 16 * std::numeric_limits<double>::epsilon() * size;
     }
 
-    glm::dvec3 to_object(const glm::dvec3& p) const {
-        return glm::dvec3(object_from_world_ * glm::dvec4(p, 1));
-    }
-    glm::dvec3 to_world(const glm::dvec3& p) const {
-        return glm::dvec3(world_from_object_ * glm::dvec4(p, 1));
-    }
-    glm::dvec3 direction_to_object(const glm::dvec3& d) const {
-        return glm::dvec3(object_from_world_ * glm::dvec4(d, 0));
-    }
+    glm::dvec3 to_object(const glm::dvec3& p) const { return to_object_ * p + object_origin_; }
+    glm::dvec3 to_world(const glm::dvec3& p) const { return to_world_ * p + world_origin_; }
+    glm::dvec3 direction_to_object(const glm::dvec3& d) const { return to_object_ * d; }
     // The world's unit normal of an object normal of any length.
     glm::dvec3 world_normal(const glm::dvec3& n) const {
-        return glm::normalize(glm::transpose(glm::dmat3(object_from_world_)) * n);
+        return glm::normalize(normal_to_world_ * n);
     }
     // World area per object area where the object's normal is n (unit): that of a surface element
     // is |det M| |M^-T n|.
     double area_stretch(const glm::dvec3& n) const {
-        return std::abs(glm::determinant(glm::dmat3(world_from_object_))) *
-               glm::length(glm::transpose(glm::dmat3(object_from_world_)) * n);
+        return std::abs(glm::determinant(to_world_)) * glm::length(normal_to_world_ * n);
     }
     // What rounding in double does to the world's coordinates of a point of the surface.
     double rounding() const { return rounding_; }
@@ -64,7 +61,8 @@ class RoundFrame {
     double u(const glm::dvec3& p) const { return std::fmin(phi(p) / phi_max_, 1.0); }
 
   private:
-    glm::dmat4 world_from_object_, object_from_world_;
+    glm::dmat3 to_world_, to_object_{1}, normal_to_world_{1};
+    glm::dvec3 world_origin_, object_origin_{0};
     double phi_max_, rounding_;
     bool all_round_;
 };

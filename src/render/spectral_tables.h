@@ -11,6 +11,7 @@
 #include "materials/torrance_sparrow.h"
 #include "render/textures.h"
 #include "render/wavelengths.h"
+#include "scene/plugin_surface.h"
 #include "scene/scene.h"
 
 namespace drude {
@@ -132,13 +133,27 @@ struct MixTables {
     NumberValue amount;
 };
 
+template <int N>
+struct PluginTables {
+    std::shared_ptr<const PluginSurface> surface;
+    std::vector<float> nanometres;  // of the lanes, phase by phase
+    explicit PluginTables(const PluginMaterial& m) : surface(m.surface) {
+        for (int phase = 0; phase < Wavelengths<N>::spacing; ++phase) {
+            for (int lane = 0; lane < N; ++lane) {
+                nanometres.push_back(static_cast<float>(Wavelengths<N>::nanometres(phase, lane)));
+            }
+        }
+    }
+};
+
 // Elements are no part of what scatters.
 struct NoTables {};
 
 template <int N>
 using SurfaceTables =
     std::variant<ConductorTables<N>, DiffuseTables<N>, DiffuseTransmissionTables<N>,
-                 DielectricTables<N>, ThinDielectricTables<N>, CoatTables<N>, MixTables, NoTables>;
+                 DielectricTables<N>, ThinDielectricTables<N>, CoatTables<N>, PluginTables<N>,
+                 MixTables, NoTables>;
 
 template <int N>
 struct SpectralTables {
@@ -202,7 +217,7 @@ struct SpectralTables {
         return MixTables{m.first, m.second, m.amount};
     }
     static Tables tables_of(const OpticalElementMaterial&, int) { return NoTables{}; }
-    static Tables tables_of(const PluginMaterial&, int) { return NoTables{}; }
+    static Tables tables_of(const PluginMaterial& m, int) { return PluginTables<N>(m); }
 };
 
 }  // namespace drude

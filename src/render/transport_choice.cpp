@@ -48,7 +48,7 @@ struct PolarisesVisitor {
         return std::max(polarises(scene, m.first), polarises(scene, m.second));
     }
     Polarises operator()(const OpticalElementMaterial&) const { return Polarises::repeatedly; }
-    Polarises operator()(const PluginMaterial&) const { return Polarises::repeatedly; }
+    Polarises operator()(const PluginMaterial&) const { return Polarises::once; }
 };
 
 Polarises polarises(const Scene& scene, int material) {

@@ -1,5 +1,6 @@
 // Material and MakeNamedMaterial: which builder serves, and what stands in where none does.
 #include "scene/builders.h"
+#include "scene/plugin_surface.h"
 #include "scene/spectra.h"
 #include "scene/vocabulary.h"
 
@@ -51,6 +52,9 @@ std::optional<SurfaceMaterial> build_modelled(const std::string& name, Parameter
 
 std::optional<SurfaceMaterial> build_material(const std::string& name, ParameterList& list,
                                               BuildContext& context) {
+    if (!name.empty() && !is_known_name("Material", name)) {
+        return build_plugin_material(name, find_plugin(name), list, context);
+    }
     const std::vector<std::string> known = known_parameters("Material", name);
     if (name.empty() || name == "interface") {
         list.finish(known, context.messages);

@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "base/numbers.h"
 #include "scene/old_versions.h"
+#include "scene/plugin_surface.h"
 #include "scene/transforms.h"
 #include "scene/vocabulary.h"
 
@@ -164,13 +165,34 @@ glm::dmat4 Parser::matrix_argument(const std::string& directive, const Place& pl
 }
 
 void Parser::check_name(const std::string& kind, const std::string& name, const Place& place) {
-    if (is_known_name(kind, name) || (kind == "Material" && name.empty())) return;
+    const std::string plugin = kind == "Material" ? find_plugin(name) : "";
+    if (is_known_name(kind, name) || (kind == "Material" && name.empty())) {
+        if (!plugin.empty()) {
+            reader_.messages().note(place, fmt::format("Material \"{}\" is the built-in one; {} is "
+                                                       "never used under this name",
+                                                       name, plugin));
+        }
+        return;
+    }
+    if (!plugin.empty()) return;
     if (is_old_name(kind, name)) {
         old_version_error(lexer(), place, fmt::format("{} \"{}\"", kind, name));
     }
     const std::vector<std::string> names = known_names(kind);
-    user_error_at(place, "{} \"{}\" is not known{}; expected one of: {}", kind, shown(name),
-                  did_you_mean(name, names), fmt::join(names, ", "));
+    std::vector<std::string> candidates = names;
+    std::string searched;
+    if (kind == "Material") {
+        for (const std::string& other : plugin_names()) candidates.push_back(other);
+        const std::vector<std::string> folders = plugin_folders();
+        if (!folders.empty()) {
+            searched = fmt::format(
+                "; or a plugin: there is neither {0}.so nor lib{0}.so in {1} "
+                "(DRUDE_PLUGIN_PATH)",
+                shown(name), fmt::join(folders, ", "));
+        }
+    }
+    user_error_at(place, "{} \"{}\" is not known{}; expected one of: {}{}", kind, shown(name),
+                  did_you_mean(name, candidates), fmt::join(names, ", "), searched);
 }
 
 ParameterList Parser::parameters(const std::string& owner, const Place& place) {

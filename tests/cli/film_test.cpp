@@ -207,6 +207,12 @@ TEST_F(FilmCommand, CheckpointsDoNotChangeThePicture) {
     EXPECT_GT(nlohmann::json::parse(often.out).at("checkpoints"), 0);
     expect_same("a.exr", "b.exr");
     EXPECT_EQ(run("render s.pbrt --spp 4 -o b.exr --checkpoint -1").status, 2);
+    // Where a checkpoint cannot be written the picture is made all the same, and it is said.
+    std::filesystem::create_directory(folder_.file("c.checkpoint.exr"));
+    const ProgramRun without = run("render s.pbrt -q --spp 256 -o c.exr --checkpoint 0.05");
+    EXPECT_EQ(without.status, 0) << without.err;
+    EXPECT_NE(without.err.find("checkpoint could not be written"), std::string::npos);
+    expect_same("a.exr", "c.exr");
     // Nothing lies beside a device.
     EXPECT_EQ(run("render s.pbrt -q --spp 4 -o /dev/null").status, 0);
     EXPECT_EQ(run("render s.pbrt -q --spp 4 -o /dev/null --resume").status, 2);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/files.h"
 #include "reference_comparison.h"
 #include "render/transport_choice.h"
@@ -72,6 +74,29 @@ TEST(Reference, AgreesInABoxOfMetals) {
     expect_agreement(rendered_blocks(scene, Transport::stokes, 64, 4, 12), reference, 4);
     expect_agreement(rendered_blocks(scene, Transport::intensity, 64, 4, 12), reference, 1);
 }
+
+// Every scene of the repository, a few pixels of it: the meshes are tried triangle by triangle.
+class EveryScene : public testing::TestWithParam<const char*> {};
+TEST_P(EveryScene, AgreesWithTheReference) {
+    const Scene scene = small_scene(GetParam(), 6, 6, 4);
+    const BlockMeans reference = reference_blocks(scene, 512, 3, Directions::lobe, 3);
+    const Agreement stokes =
+        agreement(rendered_blocks(scene, Transport::stokes, 64, 3, 12), reference, 4, 1e-4);
+    EXPECT_GT(stokes.p, 1e-4) << stokes.tests << " tests; " << stokes.worst;
+    const TransportChoice cheapest = cheapest_exact_transport(scene, scene.max_depth);
+    const Agreement automatic =
+        agreement(rendered_blocks(scene, cheapest.transport, 64, 3, 12), reference, 1, 1e-4);
+    EXPECT_GT(automatic.p, 1e-4) << automatic.tests << " tests; " << automatic.worst;
+}
+INSTANTIATE_TEST_SUITE_P(Reference, EveryScene,
+                         testing::Values("cornell-metals.pbrt", "crossed-polarisers.pbrt",
+                                         "furnace.pbrt", "gold-teapot.pbrt", "half-sphere.pbrt",
+                                         "material-orb.pbrt", "two-metals.pbrt"),
+                         [](const auto& name) {
+                             std::string text = name.param;
+                             std::replace(text.begin(), text.end(), '-', '_');
+                             return text.substr(0, text.size() - 5);
+                         });
 
 // Two polarising surfaces in a row are beyond the scalar transport, and the comparison is fine
 // enough to show it: of two glass plates near Brewster's angle it misses half the light.
