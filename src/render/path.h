@@ -231,7 +231,7 @@ class Path {
     void pass_elements(const glm::vec3& o, const glm::vec3& d, float distance,
                        Beam<transport, N>& beam) {
         setup_.elements.along(o, d, distance, [&](const Hit& at) {
-            cancelled_ = std::max(cancelled_, 1e-2f * max_lane(beam.throughput.corner()));
+            cancelled_ = std::max(cancelled_, 0.1f * max_lane(beam.throughput.corner()));
             beam.throughput.apply(setup_.elements.mueller(at, -d, beam.x, h_));
         });
     }
