@@ -95,9 +95,15 @@ class Arguments {
             values.numbers.assign(dense.begin(), dense.end());
             return;
         }
-        values.numbers = given->numbers;
+        values.numbers = d.type == "rgb" ? matter_rgb_values(*given, context) : given->numbers;
         for (const bool value : given->booleans) values.numbers.push_back(value);
         values.strings = given->strings;
+        for (size_t i = 0; i < values.strings.size(); ++i) {
+            // The plugin would take it for the end.
+            if (values.strings[i].find('\0') == std::string::npos) continue;
+            user_error_at(given->place_of(i), "{}: {} is \"{}\"; expected text without bytes of 0",
+                          list.owner(), d.name, shown(values.strings[i]));
+        }
         const size_t count = std::max(values.numbers.size(), values.strings.size());
         const size_t one = d.type == "rgb" ? 3 : 1;
         if (!d.is_list && count != one) {

@@ -48,9 +48,8 @@ RGB rgb_of(const Parameter& parameter) {
 
 // The RGB of a parameter in linear sRGB, inside [0, highest] where it was inside that in its own
 // colour space.
-RGB srgb_of(const Parameter& parameter, const RGB& converted, double highest,
+RGB srgb_of(const Parameter& parameter, const RGB& own, const RGB& converted, double highest,
             BuildContext& context) {
-    const RGB own = rgb_of(parameter);
     if (std::any_of(own.begin(), own.end(), [&](double v) { return !(v >= 0 && v <= highest); })) {
         return converted;
     }
@@ -73,19 +72,19 @@ RGB srgb_of(const Parameter& parameter, const RGB& converted, double highest,
 }
 
 // A colour of matter. Above 1 it may be anything (an index of refraction), but never negative.
-RGB matter_rgb(const Parameter& parameter, BuildContext& context) {
-    const RGB own = rgb_of(parameter);
+RGB matter_rgb(const Parameter& parameter, const RGB& own, BuildContext& context) {
     const RGB converted = matter_to_srgb(parameter.colour_space, own);
     if (parameter.colour_space == ColourSpace::srgb) return converted;
     const double most = *std::max_element(own.begin(), own.end());
-    return srgb_of(parameter, converted, most <= 1 ? 1 : std::numeric_limits<double>::max(),
+    return srgb_of(parameter, own, converted, most <= 1 ? 1 : std::numeric_limits<double>::max(),
                    context);
 }
 
 RGB light_rgb(const Parameter& parameter, BuildContext& context) {
-    const RGB converted = light_to_srgb(parameter.colour_space, rgb_of(parameter));
+    const RGB own = rgb_of(parameter);
+    const RGB converted = light_to_srgb(parameter.colour_space, own);
     if (parameter.colour_space == ColourSpace::srgb) return converted;
-    return srgb_of(parameter, converted, std::numeric_limits<double>::max(), context);
+    return srgb_of(parameter, own, converted, std::numeric_limits<double>::max(), context);
 }
 
 template <class Value>
@@ -112,10 +111,20 @@ void stand_in_for_texture(const Parameter& parameter, BuildContext& context) {
 
 }  // namespace
 
+std::vector<double> matter_rgb_values(const Parameter& parameter, BuildContext& context) {
+    std::vector<double> values;
+    for (size_t i = 0; i + 2 < parameter.numbers.size(); i += 3) {
+        const double* own = parameter.numbers.data() + i;
+        const RGB rgb = matter_rgb(parameter, {own[0], own[1], own[2]}, context);
+        values.insert(values.end(), rgb.begin(), rgb.end());
+    }
+    return values;
+}
+
 SpectrumValue matter_value(const Parameter& parameter, BuildContext& context) {
     switch (parameter.type) {
         case ParameterType::rgb:
-            return {rgb_reflectance(matter_rgb(parameter, context))};
+            return {rgb_reflectance(matter_rgb(parameter, rgb_of(parameter), context))};
         case ParameterType::blackbody:
             return {blackbody_of(parameter)};
         case ParameterType::texture:

@@ -29,6 +29,9 @@ std::optional<MetalSpectrum> metal_spectrum(const std::string& name, const Place
 // Of a parameter of type spectrum: pairs as they stand, a name, or a file of pairs (.spd).
 SampledTable sampled_table(const Parameter& parameter, BuildContext& context);
 
+// Of a parameter of type rgb that describes matter: all its colours, in linear sRGB.
+std::vector<double> matter_rgb_values(const Parameter& parameter, BuildContext& context);
+
 // A parameter that describes a property of matter, on the project's grid: rgb of its ColorSpace
 // (see colour_space.h) through the basis of Mallett and Yuksel (unbounded), blackbody with its peak
 // at 1, or a texture.

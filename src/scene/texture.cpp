@@ -23,7 +23,6 @@ struct Kind;
 
 template <>
 struct Kind<NumberValue> {
-    static constexpr std::string_view name = "float";
     static NumberValue of(double value) { return {value}; }
     static NumberValue constant(ParameterList& list, const std::string& name, double otherwise,
                                 BuildContext&) {
@@ -44,7 +43,6 @@ struct Kind<NumberValue> {
 
 template <>
 struct Kind<SpectrumValue> {
-    static constexpr std::string_view name = "spectrum";
     static SpectrumValue of(double value) { return {constant_spectrum(value)}; }
     static SpectrumValue given(ParameterList& list, const std::string& name, double otherwise,
                                const std::vector<ParameterType>& types, BuildContext& context) {

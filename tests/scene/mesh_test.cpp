@@ -152,6 +152,9 @@ TEST(Ply, ErrorsHaveTheirPlace) {
                           "found 'x'");
     EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "double y", "double yy")), "m.ply:4",
                           "without x, y and z");
+    // A list is no coordinate.
+    EXPECT_PLACE_AND_TEXT(ply_error(replaced(good, "float x", "list uchar float x")), "m.ply:4",
+                          "a list 'x'; expected one number");
     EXPECT_PLACE_AND_TEXT(
         ply_error("ply\nformat ascii 1.0\nelement a 99999999999999\nend_header\n"), "m.ply:3",
         "without properties");

@@ -134,6 +134,11 @@ TEST(Plugins, Parameters) {
     EXPECT_FALSE(contains(all, " n=")) << all;
     EXPECT_TRUE(contains(all, "s.pbrt:2:1: ")) << all;
 
+    // Colours come in linear sRGB: .5 * 1.6605 - .4 * .5876 - .3 * .0728 is 0.573.
+    EXPECT_TRUE(contains(
+        world_error_of("ColorSpace \"rec2020\" " + material("fails", "\"rgb tint\" [ .5 .4 .3 ]")),
+        " tint=0.573"));
+
     const auto refused = [&](const std::string& parameters, const std::string& why) {
         const std::string message = given(parameters);
         EXPECT_TRUE(contains(message, "s.pbrt:2:")) << message;
@@ -144,6 +149,7 @@ TEST(Plugins, Parameters) {
     refused("\"float alpha\" [ 1 2 ]", "2 values; expected 1");
     refused("\"rgb tint\" [ 1 2 3 4 5 6 ]", "6 values; expected 3");
     refused("\"string table\" \"gone.txt\"", "not found");
+    refused(std::string("\"string label\" \"a\0b\"", 20), "bytes of 0");
 }
 
 TEST(Plugins, ReasonsOfFailure) {
