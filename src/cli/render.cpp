@@ -23,6 +23,7 @@
 #include "render/film_checkpoint.h"
 #include "render/film_partial.h"
 #include "render/film_ranks.h"
+#include "render/textures.h"
 #include "render/transport_choice.h"
 #include "scene/resolution.h"
 
@@ -198,6 +199,8 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
         for (const std::string& warning : scene.warnings) {
             fmt::print(stderr, "drude: warning: {}\n", warning);
         }
+        // Pictures that cannot be read are found here, and not after an hour.
+        const NumberTextures textures(scene);
         fmt::print("{}", describe_scene(scene));
         return 0;
     }

@@ -28,8 +28,8 @@ class CumulativeRows {
         const float* sum = &sums_[row * length_];
         const float* ends = &coarse_[row * blocks_];
         const float target = u * ends[blocks_ - 1];
-        const size_t b = std::min<size_t>(std::upper_bound(ends, ends + blocks_, target) - ends,
-                                          blocks_ - 1);
+        const size_t b =
+            std::min<size_t>(std::upper_bound(ends, ends + blocks_, target) - ends, blocks_ - 1);
         const float* first = sum + b * block;
         const float* last = sum + std::min((b + 1) * block, length_);
         size_t i = std::min<size_t>(std::upper_bound(first, last, target) - sum, length_ - 1);

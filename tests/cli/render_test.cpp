@@ -52,7 +52,8 @@ TEST(RenderCommand, SaysWhyTheTransportIsExact) {
     const TemporaryFolder folder;
     write_text(folder.file("s.pbrt"), scene);
     const ProgramRun run = run_drude(folder, "render s.pbrt --spp 1 -q -o a.exr");
-    EXPECT_NE(run.out.find("transport scalar: the only surface that polarises"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("transport scalar: the only surface that polarises"), std::string::npos)
+        << run.out;
     const ProgramRun forced =
         run_drude(folder, "render s.pbrt --spp 1 -q --stokes --transport scalar -o a.exr");
     EXPECT_EQ(forced.status, 2);
