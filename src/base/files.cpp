@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -11,8 +12,11 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <system_error>
 
 #include "base/error.h"
@@ -158,6 +162,47 @@ void AtomicFile::commit() {
     sync_folder_of(final_path_);  // the rename itself must reach the disk too
 }
 
+namespace {
+
+double seconds(const timespec& time) {
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// When a living process began, in seconds of the system's clock: field 22 of its /proc/PID/stat,
+// behind a name that may hold anything, counts from the start of the machine (proc(5)). Nothing
+// where that cannot be read.
+std::optional<double> began(pid_t process) {
+    std::ifstream file(fmt::format("/proc/{}/stat", process));
+    std::string line;
+    if (!std::getline(file, line)) return {};
+    const size_t name_end = line.rfind(')');
+    if (name_end == std::string::npos) return {};
+    std::istringstream fields(line.substr(name_end + 1));
+    std::string field;
+    for (int i = 3; i <= 22; ++i) {
+        if (!(fields >> field)) return {};
+    }
+    const std::optional<long long> ticks = parse_integer(field);
+    timespec now{}, since_start{};
+    if (!ticks || clock_gettime(CLOCK_REALTIME, &now) != 0 ||
+        clock_gettime(CLOCK_BOOTTIME, &since_start) != 0) {
+        return {};
+    }
+    return seconds(now) - seconds(since_start) +
+           static_cast<double>(*ticks) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+// Whether the process that bore the number when the file was last written has ended: no process
+// bears it, or one that is younger than the file.
+bool has_ended(pid_t process, const std::string& file) {
+    if (kill(process, 0) != 0 && errno == ESRCH) return true;
+    struct stat status {};
+    const std::optional<double> start = began(process);
+    return start && stat(file.c_str(), &status) == 0 && *start > seconds(status.st_mtim) + 0.1;
+}
+
+}  // namespace
+
 void remove_abandoned_files(const std::string& path) {
     namespace fs = std::filesystem;
     const fs::path target(path);
@@ -179,9 +224,8 @@ void remove_abandoned_files(const std::string& path) {
             !parse_unsigned(middle.substr(std::min(dash + 1, middle.size())))) {
             continue;
         }
-        if (kill(static_cast<pid_t>(*process), 0) != 0 && errno == ESRCH) {
-            unlink(it->path().c_str());
-        }
+        const std::string file = it->path().string();
+        if (has_ended(static_cast<pid_t>(*process), file)) unlink(file.c_str());
     }
 }
 

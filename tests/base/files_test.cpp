@@ -8,6 +8,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -285,8 +286,15 @@ TEST(AbandonedFiles, OfDeadProcessesAreRemovedAndNoOthers) {
                                            ".a.checkpoint." + dead + "-3.tmp.png"};
     for (const std::string& name : kept) write_file(folder.file(name), "x");
     write_file(folder.file(removed), "x");
+    // Numbers come again: what was written before this process began is not its own.
+    const std::string older = ".a.checkpoint." + alive + "-1.tmp.exr";
+    write_file(folder.file(older), "x");
+    std::filesystem::last_write_time(
+        folder.file(older),
+        std::filesystem::last_write_time(folder.file(older)) - std::chrono::hours(24 * 365));
     remove_abandoned_files(folder.file("a.checkpoint.exr"));
     EXPECT_FALSE(std::filesystem::exists(folder.file(removed)));
+    EXPECT_FALSE(std::filesystem::exists(folder.file(older)));
     for (const std::string& name : kept) {
         EXPECT_TRUE(std::filesystem::exists(folder.file(name))) << name;
     }
