@@ -134,10 +134,21 @@ std::string open_texture(const char* path, unsigned long long most_pixels,
     return "";
 }
 
+// This thread's part of the cache, asked for once: OpenImageIO looks it up at every call otherwise.
+// Threads enrol one at a time, under a lock that a race detector sees.
+OIIO::ImageCache::Perthread* this_threads_part() {
+    static std::mutex mutex;
+    thread_local OIIO::ImageCache::Perthread* part = [] {
+        const std::lock_guard<std::mutex> lock(mutex);
+        return textures().cache->get_perthread_info();
+    }();
+    return part;
+}
+
 std::string read_texels(const OpenTexture& texture, int x0, int x1, int y0, int y1, float* values) {
     const bool done = textures().cache->get_pixels(
-        texture.file, nullptr, 0, 0, texture.x + x0, texture.x + x1, texture.y + y0, texture.y + y1,
-        0, 1, 0, texture.channels, OIIO::TypeDesc::FLOAT, values);
+        texture.file, this_threads_part(), 0, 0, texture.x + x0, texture.x + x1, texture.y + y0,
+        texture.y + y1, 0, 1, 0, texture.channels, OIIO::TypeDesc::FLOAT, values);
     return done ? "" : cache_error("damaged or truncated");
 }
 
