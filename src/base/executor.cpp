@@ -80,4 +80,20 @@ void parallel_for(size_t count, int threads, const std::function<void(size_t)>& 
     if (error) std::rethrow_exception(error);
 }
 
+#ifdef DRUDE_JTHREAD_EXECUTOR
+void on_one_pool_thread(const std::function<void()>& body) {
+    body();
+}
+bool uses_tbb_pool() {
+    return false;
+}
+#else
+void on_one_pool_thread(const std::function<void()>& body) {
+    tbb::task_arena(1).execute(body);
+}
+bool uses_tbb_pool() {
+    return true;
+}
+#endif
+
 }  // namespace drude

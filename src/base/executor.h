@@ -19,4 +19,12 @@ int available_threads();
 // for any number of threads.
 void parallel_for(size_t count, int threads, const std::function<void(size_t)>& body);
 
+// Runs the body where a library that works with TBB finds one thread, so that what it makes does
+// not depend on timing. Limiting such a library by a setting of its own would limit the pool of the
+// whole process, and with it parallel_for, for as long as the library keeps that setting.
+void on_one_pool_thread(const std::function<void()>& body);
+
+// Whether parallel_for itself works with TBB's pool.
+bool uses_tbb_pool();
+
 }  // namespace drude

@@ -4,6 +4,7 @@
 #include <cfloat>
 #include <cmath>
 
+#include "base/executor.h"
 #include "render/optical_elements.h"
 #include "render/partial_cylinder.h"
 #include "render/partial_disk.h"
@@ -120,8 +121,9 @@ Geometry::Geometry(const Scene& scene, const std::string& isa,
     : impl_(std::make_unique<Impl>()) {
     impl_->scene = &scene;
     impl_->index_of_shape.assign(scene.shapes.size(), 0);
-    // One build thread: the tree, and with it the order of equal hits, must not depend on timing.
-    const std::string config = isa.empty() ? "threads=1" : fmt::format("threads=1,isa={}", isa);
+    // "threads" limits TBB's pool for as long as the device lives, not the building of this tree.
+    std::string config = uses_tbb_pool() ? "" : "threads=1";
+    if (!isa.empty()) config += fmt::format("{}isa={}", config.empty() ? "" : ",", isa);
     impl_->device = rtcNewDevice(config.c_str());
     if (!impl_->device) outside_error("Embree cannot start (configuration '{}')", config);
     impl_->embree = rtcNewScene(impl_->device);
@@ -168,7 +170,8 @@ Geometry::Geometry(const Scene& scene, const std::string& isa,
     impl_->spheres.attach(impl_->device, impl_->embree, first_id);
     impl_->disks.attach(impl_->device, impl_->embree, first_id + 1);
     impl_->cylinders.attach(impl_->device, impl_->embree, first_id + 2);
-    rtcCommitScene(impl_->embree);
+    // The tree, and with it the order of equal hits, must not depend on timing.
+    on_one_pool_thread([this] { rtcCommitScene(impl_->embree); });
     if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE) {
         outside_error("Embree cannot build the scene; is there enough memory?");
     }

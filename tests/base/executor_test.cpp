@@ -6,11 +6,11 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <mutex>
-#include <set>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "base/threads_at_work.h"
 
 namespace drude {
 namespace {
@@ -44,21 +44,7 @@ TEST(Executor, TakesEmptyAndShortLoops) {
 // Also more than there are processors: the number of threads must not depend on the machine.
 TEST(Executor, UsesAsManyThreadsAsAsked) {
     for (const int threads : {1, 2, 6}) {
-        std::mutex mutex;
-        std::set<std::thread::id> seen;
-        const auto all_seen = [&] {
-            const std::lock_guard<std::mutex> lock(mutex);
-            seen.insert(std::this_thread::get_id());
-            return seen.size() >= static_cast<size_t>(threads);
-        };
-        // Every thread waits for the others, on a busy machine for as long as it takes.
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-        parallel_for(100, threads, [&](size_t) {
-            while (!all_seen() && std::chrono::steady_clock::now() < end) {
-                std::this_thread::sleep_for(std::chrono::microseconds(100));
-            }
-        });
-        EXPECT_EQ(seen.size(), static_cast<size_t>(threads));
+        EXPECT_EQ(threads_at_work(threads), static_cast<size_t>(threads));
     }
 }
 
