@@ -4,4 +4,8 @@
 
 #include "bench/charts/bench_item.h"
 
-namespace drude {}  // namespace drude
+namespace drude {
+
+BenchItem fresnel_item();
+
+}  // namespace drude

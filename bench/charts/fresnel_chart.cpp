@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/charts/bench_items.h"
 #include "bench/charts/experiment.h"
 
 namespace drude {
@@ -62,7 +63,7 @@ Experiment experiment(int runs, const std::function<void()>& step) {
     const auto metal_of = [](uint64_t seed) { return static_cast<size_t>(seed) % 5; };
     std::vector<Method> timed;
     const auto add = [&](std::function<double(uint64_t)> ns) {
-        timed.push_back({"", {{"", [ns](uint64_t seed) { return Run{ns(seed), 0}; }}}});
+        timed.push_back({"", {{"", [ns](uint64_t seed) { return Measured{ns(seed), 0}; }}}});
     };
     for (size_t m = 0; m < count; ++m) {
         add([&, m](uint64_t s) {

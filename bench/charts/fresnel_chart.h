@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/charts/bench_item.h"
 #include "bench/charts/fresnel_methods.h"
 
 namespace drude {
@@ -49,7 +48,5 @@ struct FresnelError {
     double mean_delta_e = 0, worst_delta_e = 0, relative_rmse = 0;  // of the picture
 };
 FresnelError fresnel_error(const FresnelMethod& method, const DenseIndex& metal);
-
-BenchItem fresnel_item();
 
 }  // namespace drude
