@@ -7,5 +7,6 @@
 namespace drude {
 
 BenchItem fresnel_item();
+BenchItem microfacet_item();
 
 }  // namespace drude

@@ -5,15 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/charts/five_metals.h"
 #include "bench/charts/fresnel_methods.h"
 
 namespace drude {
-
-// Copper, silver, gold, aluminium and the zinc of coated steel: the literature of the study.
-struct NamedMetal {
-    std::string name, set;
-};
-const std::vector<NamedMetal>& five_metals();
 
 // What a packet is evaluated for: uniform numbers chosen beforehand.
 struct FresnelInputs {

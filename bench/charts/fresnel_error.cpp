@@ -7,15 +7,6 @@
 
 namespace drude {
 
-const std::vector<NamedMetal>& five_metals() {
-    static const std::vector<NamedMetal> metals = {{"Cu", "Cu-McPeak"},
-                                                   {"Ag", "Ag-McPeak"},
-                                                   {"Au", "Au-McPeak"},
-                                                   {"Al", "Al-McPeak"},
-                                                   {"Zn on steel", "Zn-Werner-DFT"}};
-    return metals;
-}
-
 FresnelError fresnel_error(const FresnelMethod& method, const DenseIndex& metal) {
     std::vector<double> values(static_cast<size_t>(spectrum_integral_size) * sphere_rings);
     std::vector<double> truths(values.size());

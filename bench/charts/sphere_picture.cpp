@@ -67,4 +67,10 @@ double brightest(const SpherePicture& picture) {
     return largest;
 }
 
+double mean_Y(const SpherePicture& picture) {
+    double sum = 0;
+    for (const RGB& rgb : picture) sum += rgb_to_xyz(rgb)[1];
+    return sum / static_cast<double>(picture.size());
+}
+
 }  // namespace drude

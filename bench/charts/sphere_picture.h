@@ -36,7 +36,8 @@ struct PictureError {
 PictureError picture_error(const SpherePicture& picture, const SpherePicture& truth,
                            double white = 1);
 
-// The largest Y.
+// The largest Y, and the mean.
 double brightest(const SpherePicture& picture);
+double mean_Y(const SpherePicture& picture);
 
 }  // namespace drude
