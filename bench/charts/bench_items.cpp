@@ -3,7 +3,7 @@
 namespace drude {
 
 const std::vector<BenchItem>& bench_items() {
-    static const std::vector<BenchItem> all = {fresnel_item(), microfacet_item()};
+    static const std::vector<BenchItem> all = {fresnel_item(), microfacet_item(), fit_item()};
     return all;
 }
 

@@ -8,5 +8,6 @@ namespace drude {
 
 BenchItem fresnel_item();
 BenchItem microfacet_item();
+BenchItem fit_item();
 
 }  // namespace drude

@@ -24,6 +24,9 @@ constexpr const char* integration =
     "quadrature in double. The half-height angle is where the density of facets is half of that "
     "along the normal (beta of all lobes but Beckmann's). ";
 
+// Below these the quadrature's own error shows.
+constexpr double least_loss = 1e-5, least_delta_e = 1e-3;
+
 // Beckmann's density has its largest value at normal up to beta = 0.707 only.
 constexpr double last_of_beckmann = 0.8;
 
@@ -91,18 +94,18 @@ Chart energy_chart(const Cells& cells) {
     chart.error = "energy lost by a sphere of perfect mirrors";
     chart.caption = std::string(integration) +
                     "Facets that reflect everything under a sky all around: what is lost is the "
-                    "relative darkening of the picture. Ringed: a conductor of which nothing but "
-                    "the roughness is said.";
+                    "relative darkening of the picture; less than 1e-5 is left out. Ringed: a "
+                    "conductor of which nothing but the roughness is said.";
     for (const Lobe lobe : lobes) {
         for (const Masking masking : {Masking::v_groove, Masking::smith}) {
             ChartCurve curve{name_of(lobe, masking), {}};
             for (const double h : cells.half_heights) {
                 const Cell* cell = cells.find(lobe, masking, h);
-                if (!cell) continue;
+                if (!cell || cell->on_sphere.energy_lost() < least_loss) continue;
                 ChartPoint point;
                 point.setting = fmt::format("{:g} rad", h);
                 point.cost = h;
-                point.error = std::max(0.0, cell->on_sphere.energy_lost());
+                point.error = cell->on_sphere.energy_lost();
                 point.automatic = lobe == Lobe::trowbridge_reitz && masking == Masking::smith;
                 point.note =
                     fmt::format("beta {:.4g}; at the limb {:.3g}", beta_at_half_height(lobe, h),
@@ -128,7 +131,7 @@ Chart masking_chart(const Cells& cells, const FacetReflectance& copper) {
     chart.caption = std::string(integration) +
                     "Copper (Cu-McPeak) with one masking against the other; the sky is white, and "
                     "1 is about a just noticeable difference. The notes give the mean relative "
-                    "difference of brightness.";
+                    "difference of brightness; differences below 0.001 are left out.";
     for (const Lobe lobe : lobes) {
         ChartCurve curve{std::string(lobe_name(lobe)), {}};
         for (const double h : cells.half_heights) {
@@ -138,6 +141,7 @@ Chart masking_chart(const Cells& cells, const FacetReflectance& copper) {
             const SpherePicture a = rough_sphere(groove->on_sphere, copper);
             const SpherePicture b = rough_sphere(smith->on_sphere, copper);
             const PictureError error = picture_error(a, b);
+            if (error.mean_delta_e < least_delta_e) continue;
             ChartPoint point;
             point.setting = fmt::format("{:g} rad", h);
             point.cost = h;
