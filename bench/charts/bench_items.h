@@ -9,5 +9,6 @@ namespace drude {
 BenchItem fresnel_item();
 BenchItem microfacet_item();
 BenchItem fit_item();
+BenchItem capture_item();
 
 }  // namespace drude

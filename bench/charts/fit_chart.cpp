@@ -3,184 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "bench/charts/bench_items.h"
 #include "bench/charts/experiment.h"
-#include "bench/charts/fit_experiment.h"
+#include "bench/charts/fit_runs.h"
 #include "bench/charts/five_metals.h"
 
 namespace drude {
 
 namespace {
-
-struct Fitted {
-    FitSetting setting;
-    std::string varied;  // "angles", "wavelengths", "noise"; "" is the setting that all share
-    std::vector<std::vector<FitOutcome>> outcomes;  // by seed, metal
-};
-
-struct Procedure {
-    std::string name, estimator, dispersion;
-};
-
-const std::vector<Procedure>& procedures() {
-    static const std::vector<Procedure> all = {
-        {"Psi and Delta, point by point", "psi-delta", ""},
-        {"Psi and Delta, dispersion", "psi-delta", "drude+2cp"},
-        {"Psi alone, point by point", "rho2", ""},
-        {"Psi alone, dispersion", "rho2", "drude+2cp"}};
-    return all;
-}
-
-bool is_of(const Procedure& procedure, const FitSetting& setting) {
-    return setting.estimator == procedure.estimator && setting.dispersion == procedure.dispersion;
-}
-
-std::vector<Fitted> make_settings(bool quick) {
-    std::vector<Fitted> all;
-    for (const Procedure& procedure : procedures()) {
-        if (quick && !procedure.dispersion.empty()) continue;
-        FitSetting base;
-        base.estimator = procedure.estimator;
-        base.dispersion = procedure.dispersion;
-        const auto add = [&](const std::string& varied, const FitSetting& setting) {
-            all.push_back({setting, varied, {}});
-        };
-        add("", base);
-        for (const std::vector<double>& angles :
-             {std::vector<double>{70}, {60, 75}, {45, 50, 60, 70, 75, 80}}) {
-            FitSetting setting = base;
-            setting.angles_deg = angles;
-            add("angles", setting);
-        }
-        for (const int count : {5, 11, 21, 81}) {
-            FitSetting setting = base;
-            setting.wavelengths = count;
-            add("wavelengths", setting);
-        }
-        for (const double noise : {0.1, 10.0, 100.0}) {
-            FitSetting setting = base;
-            setting.noise = noise;
-            add("noise", setting);
-        }
-    }
-    return all;
-}
-
-void run_all(std::vector<Fitted>* all, int seeds) {
-    std::vector<Method> methods;
-    for (Fitted& fitted : *all) {
-        fitted.outcomes.resize(static_cast<size_t>(seeds));
-        methods.push_back({"", {{"", [&fitted](uint64_t seed) {
-                                     auto& outcomes = fitted.outcomes[seed - 1];
-                                     for (const NamedMetal& metal : five_metals()) {
-                                         outcomes.push_back(fit_outcome(published_set(metal.set),
-                                                                        fitted.setting, seed));
-                                     }
-                                     return Measured{1, 0};
-                                 }}}});
-    }
-    run_shuffled(methods, seeds);
-}
-
-// ---- what is read from the outcomes
-// -------------------------------------------------------------
-
-using Figure = std::function<double(const FitOutcome&)>;
-
-double constants_error(const FitOutcome& outcome) {
-    return outcome.constants_error;
-}
-Figure delta_e(size_t scene) {
-    return [scene](const FitOutcome& outcome) { return outcome.pictures[scene].mean_delta_e; };
-}
-
-// Names of the metals that some seed had no answer for.
-std::string refused(const Fitted& fitted) {
-    std::string names;
-    for (size_t m = 0; m < five_metals().size(); ++m) {
-        for (const auto& outcomes : fitted.outcomes) {
-            if (outcomes[m].refused.empty()) continue;
-            names += (names.empty() ? "" : ", ") + five_metals()[m].name;
-            break;
-        }
-    }
-    return names;
-}
-
-// Mean over the metals and seeds with the standard deviation of the seeds' mean; not a number where
-// one metal has no answer.
-ChartPoint point_of(const Fitted& fitted, const Figure& figure) {
-    ChartPoint point;
-    const double seeds = static_cast<double>(fitted.outcomes.size());
-    std::vector<double> means, seconds;
-    double left_out = 0;
-    for (const auto& outcomes : fitted.outcomes) {
-        double sum = 0, time = 0;
-        for (const FitOutcome& outcome : outcomes) {
-            sum += figure(outcome) / static_cast<double>(outcomes.size());
-            time += outcome.seconds / static_cast<double>(outcomes.size());
-            left_out += outcome.refused_share / (static_cast<double>(outcomes.size()) * seeds);
-        }
-        means.push_back(sum);
-        seconds.push_back(time);
-        point.error += sum / seeds;
-    }
-    double squares = 0;
-    for (const double mean : means) squares += (mean - point.error) * (mean - point.error);
-    if (means.size() > 1) point.error_sigma = std::sqrt(squares / (seeds * (seeds - 1)));
-    point.note = fmt::format("{:.3g} ms a fit", 1000 * median(seconds));
-    point.cost = median(seconds);
-    if (left_out > 0) {
-        point.note += fmt::format("; {:.2g} % of the wavelengths refused", 100 * left_out);
-    }
-    const std::string without = refused(fitted);
-    if (!without.empty()) {
-        point.error = std::numeric_limits<double>::quiet_NaN();
-        point.error_sigma = 0;
-        point.note = "refused: " + without;
-    }
-    return point;
-}
-
-std::string setting_name(const FitSetting& setting, const std::string& varied) {
-    if (varied == "angles") {
-        return setting.angles_deg.size() == 1 ? "1 angle"
-                                              : fmt::format("{} angles", setting.angles_deg.size());
-    }
-    if (varied == "wavelengths") return fmt::format("{} wavelengths", setting.wavelengths);
-    return fmt::format("{:g} deg of Psi", setting.sigma_psi_deg());
-}
-
-double cost_of(const FitSetting& setting, const std::string& varied) {
-    return varied == "noise" ? setting.sigma_psi_deg() : setting.data();
-}
-
-std::vector<ChartCurve> curves_of(const std::vector<Fitted>& all, const std::string& varied,
-                                  const Figure& figure) {
-    std::vector<ChartCurve> curves;
-    for (const Procedure& procedure : procedures()) {
-        ChartCurve curve{procedure.name, {}};
-        for (const Fitted& fitted : all) {
-            if (!is_of(procedure, fitted.setting)) continue;
-            if (!fitted.varied.empty() && fitted.varied != varied) continue;
-            ChartPoint point = point_of(fitted, figure);
-            point.setting = setting_name(fitted.setting, varied);
-            point.cost = cost_of(fitted.setting, varied);
-            point.automatic = procedure.estimator == "psi-delta" && procedure.dispersion.empty() &&
-                              fitted.setting.angles_deg.size() == 6 && varied == "angles";
-            curve.points.push_back(std::move(point));
-        }
-        std::sort(curve.points.begin(), curve.points.end(),
-                  [](const ChartPoint& a, const ChartPoint& b) { return a.cost < b.cost; });
-        if (!curve.points.empty()) curves.push_back(std::move(curve));
-    }
-    return curves;
-}
-
-// ---- charts
-// -------------------------------------------------------------------------------------
 
 std::string caption(const std::string& varied, int seeds) {
     const std::string rest =
@@ -221,7 +52,7 @@ std::string below_one(const ChartCurve& curve) {
     return fmt::format("up to {:.2g} degrees of Psi and beyond", last);
 }
 
-Chart constants_chart(const std::vector<Fitted>& all, const std::string& varied, int seeds) {
+Chart constants_chart(const std::vector<FitRuns>& all, const std::string& varied, int seeds) {
     Chart chart;
     chart.id = "fit-" + varied + "-constants";
     chart.title = varied == "noise" ? "Fit: error of n and k against the noise"
@@ -229,7 +60,7 @@ Chart constants_chart(const std::vector<Fitted>& all, const std::string& varied,
     chart.cost = cost_label(varied);
     chart.error = "relative error of n + ik (rms)";
     chart.caption = caption(varied, seeds);
-    chart.curves = curves_of(all, varied, constants_error);
+    chart.curves = fit_curves(all, varied, fit_constants_error);
     for (const ChartCurve& curve : chart.curves) {
         const ChartPoint &first = curve.points.front(), &last = curve.points.back();
         const auto text = [](const ChartPoint& p) {
@@ -242,7 +73,7 @@ Chart constants_chart(const std::vector<Fitted>& all, const std::string& varied,
     return chart;
 }
 
-Chart picture_chart(const std::vector<Fitted>& all, const std::string& varied, size_t scene,
+Chart picture_chart(const std::vector<FitRuns>& all, const std::string& varied, size_t scene,
                     int seeds) {
     Chart chart;
     const std::string name = fit_scene_name(fit_scenes[scene]);
@@ -261,7 +92,7 @@ Chart picture_chart(const std::vector<Fitted>& all, const std::string& varied, s
     } else if (fit_scenes[scene] == FitScene::crossed) {
         chart.caption += " Between crossed polarisers, where Delta counts: (A + C)/2.";
     }
-    chart.curves = curves_of(all, varied, delta_e(scene));
+    chart.curves = fit_curves(all, varied, fit_delta_e(scene));
     for (const ChartCurve& curve : chart.curves) {
         if (varied == "noise") {
             chart.findings.push_back(fmt::format("{}: not to be seen (mean below 1) {}.",
@@ -273,14 +104,14 @@ Chart picture_chart(const std::vector<Fitted>& all, const std::string& varied, s
             if (p.error < 1 && !least) least = &p;
         }
         chart.findings.push_back(
-            least ? fmt::format("{}: {} suffice for a mean error below 1 ({:.2g}).", curve.method,
+            least ? fmt::format("{}: mean error below 1 from {} on ({:.2g}).", curve.method,
                                 least->setting, least->error)
                   : fmt::format("{}: no setting has a mean error below 1.", curve.method));
     }
     return chart;
 }
 
-Chart time_chart(const std::vector<Fitted>& all, int seeds) {
+Chart time_chart(const std::vector<FitRuns>& all, int seeds) {
     Chart chart;
     chart.id = "fit-time";
     chart.title = "Fit: processor time against the error of n and k";
@@ -289,13 +120,13 @@ Chart time_chart(const std::vector<Fitted>& all, int seeds) {
     chart.caption = caption("wavelengths", seeds) +
                     " One curve a procedure, its points the numbers of wavelengths; medians of the "
                     "time of a fit with its standard deviations, on one thread.";
-    for (const Procedure& procedure : procedures()) {
+    for (const FitProcedure& procedure : fit_procedures()) {
         ChartCurve curve{procedure.name, {}};
-        for (const Fitted& fitted : all) {
-            if (!is_of(procedure, fitted.setting)) continue;
+        for (const FitRuns& fitted : all) {
+            if (!procedure.is_of(fitted.setting)) continue;
             if (!fitted.varied.empty() && fitted.varied != "wavelengths") continue;
-            ChartPoint point = point_of(fitted, constants_error);
-            point.setting = setting_name(fitted.setting, "wavelengths");
+            ChartPoint point = fit_point_of(fitted, fit_constants_error);
+            point.setting = fit_setting_name(fitted.setting, "wavelengths");
             point.automatic = procedure.estimator == "psi-delta" && procedure.dispersion.empty();
             curve.points.push_back(std::move(point));
         }
@@ -311,7 +142,7 @@ Chart time_chart(const std::vector<Fitted>& all, int seeds) {
 }
 
 // Psi and Delta point by point: what each noise does to each metal in each scene.
-BenchTable scene_table(const std::vector<Fitted>& all) {
+BenchTable scene_table(const std::vector<FitRuns>& all) {
     BenchTable table;
     table.id = "fit-scenes";
     table.caption =
@@ -323,18 +154,19 @@ BenchTable scene_table(const std::vector<Fitted>& all) {
         table.columns.push_back(fmt::format("{}: Delta E", fit_scene_name(scene)));
         table.columns.push_back(fmt::format("{}: log10", fit_scene_name(scene)));
     }
-    std::vector<const Fitted*> rows;
-    for (const Fitted& fitted : all) {
-        if (!is_of(procedures()[0], fitted.setting)) continue;
+    std::vector<const FitRuns*> rows;
+    for (const FitRuns& fitted : all) {
+        if (!fit_procedures()[0].is_of(fitted.setting)) continue;
         if (fitted.varied.empty() || fitted.varied == "noise") rows.push_back(&fitted);
     }
-    std::sort(rows.begin(), rows.end(),
-              [](const Fitted* a, const Fitted* b) { return a->setting.noise < b->setting.noise; });
-    for (const Fitted* fitted : rows) {
+    std::sort(rows.begin(), rows.end(), [](const FitRuns* a, const FitRuns* b) {
+        return a->setting.noise < b->setting.noise;
+    });
+    for (const FitRuns* fitted : rows) {
         for (size_t m = 0; m < five_metals().size(); ++m) {
             std::vector<std::string> row = {fmt::format("{:g}", fitted->setting.sigma_psi_deg()),
                                             five_metals()[m].name};
-            const auto mean = [&](const Figure& figure) {
+            const auto mean = [&](const FitFigure& figure) {
                 double sum = 0;
                 for (const auto& outcomes : fitted->outcomes) {
                     if (!outcomes[m].refused.empty()) return std::string("refused");
@@ -342,9 +174,9 @@ BenchTable scene_table(const std::vector<Fitted>& all) {
                 }
                 return fmt::format("{:.2g}", sum);
             };
-            row.push_back(mean(constants_error));
+            row.push_back(mean(fit_constants_error));
             for (size_t s = 0; s < fit_scenes.size(); ++s) {
-                row.push_back(mean(delta_e(s)));
+                row.push_back(mean(fit_delta_e(s)));
                 row.push_back(
                     mean([s](const FitOutcome& o) { return o.pictures[s].log10_difference; }));
             }
@@ -355,9 +187,8 @@ BenchTable scene_table(const std::vector<Fitted>& all) {
 }
 
 BenchResult run(const BenchOptions& options) {
-    const int seeds = options.seeds > 0 ? options.seeds : options.quick ? 2 : 4;
-    std::vector<Fitted> all = make_settings(options.quick);
-    run_all(&all, seeds);
+    const int seeds = options.seeds > 0 ? options.seeds : options.quick ? 2 : 3;
+    const std::vector<FitRuns> all = run_fits(options.quick, seeds);
     BenchResult result;
     for (const std::string varied : {"angles", "wavelengths", "noise"}) {
         result.charts.push_back(constants_chart(all, varied, seeds));
