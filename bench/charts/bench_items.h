@@ -4,4 +4,11 @@
 
 #include "bench/charts/bench_item.h"
 
-namespace drude {}  // namespace drude
+namespace drude {
+
+BenchItem fresnel_item();
+BenchItem microfacet_item();
+BenchItem fit_item();
+BenchItem capture_item();
+
+}  // namespace drude
