@@ -3,7 +3,7 @@
 namespace drude {
 
 const std::vector<BenchItem>& bench_items() {
-    static const std::vector<BenchItem> all = {};
+    static const std::vector<BenchItem> all = {transport_item(), sampling_item()};
     return all;
 }
 

@@ -4,4 +4,9 @@
 
 #include "bench/charts/bench_item.h"
 
-namespace drude {}  // namespace drude
+namespace drude {
+
+BenchItem transport_item();
+BenchItem sampling_item();
+
+}  // namespace drude
