@@ -8,5 +8,6 @@ namespace drude {
 
 BenchItem transport_item();
 BenchItem sampling_item();
+BenchItem wavelength_item();
 
 }  // namespace drude

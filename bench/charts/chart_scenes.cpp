@@ -63,18 +63,77 @@ Scene teapot_on_metal(int width, int height) {
                        "\"beckmann\" \"float beta\" 0.1");
 }
 
+namespace {
+
+void light_by_courtyard(Scene* scene) {
+    static const auto courtyard = std::make_shared<const Image>(make_courtyard(128));
+    InfiniteLight light;
+    light.world_from_light = scene->infinite_lights.front().world_from_light;
+    light.image = "courtyard";
+    light.picture = courtyard;
+    scene->infinite_lights = {light};
+}
+
+}  // namespace
+
 Scene half_sphere_in_courtyard(int width, int height, const std::string& material) {
     Scene scene = chart_scene("half-sphere", width, height,
                               "Material \"conductor\" \"string material\" \"Cu\"\n"
                               "    \"string lobe\" \"blinn-phong\" \"string masking\" "
                               "\"v-groove\" \"float beta\" 0.011774",
                               material);
-    static const auto courtyard = std::make_shared<const Image>(make_courtyard(128));
-    InfiniteLight light;
-    light.world_from_light = scene.infinite_lights.front().world_from_light;
-    light.image = "courtyard";
-    light.picture = courtyard;
-    scene.infinite_lights = {light};
+    light_by_courtyard(&scene);
+    return scene;
+}
+
+Scene sphere_in_courtyard(int width, int height, const std::string& material) {
+    Scene scene = parse_scene(
+        fmt::format("LookAt 0 -4 0.5  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 36\n"
+                    "Film \"rgb\" \"integer xresolution\" {} \"integer yresolution\" {}\n"
+                    "PixelFilter \"box\"\nIntegrator \"path\" \"integer maxdepth\" 12\n"
+                    "WorldBegin\nLightSource \"infinite\"\n{}\nShape \"sphere\"\n",
+                    width, height, material),
+        "sphere.pbrt");
+    light_by_courtyard(&scene);
+    return scene;
+}
+
+Scene metals_in_light(int width, int height, const DenseSpectrum& light) {
+    const auto metal = [](const char* name, double beta) {
+        return fmt::format(
+            "Material \"conductor\" \"string material\" \"{}\" \"string lobe\" "
+            "\"trowbridge-reitz\" \"float beta\" {}\n",
+            name, beta);
+    };
+    Scene scene = parse_scene(
+        fmt::format("LookAt 0 -6 3.2  0 0 0.45  0 0 1\nCamera \"perspective\" \"float fov\" 34\n"
+                    "Film \"rgb\" \"integer xresolution\" {} \"integer yresolution\" {}\n"
+                    "PixelFilter \"box\"\nIntegrator \"path\" \"integer maxdepth\" 12\n"
+                    "WorldBegin\nLightSource \"infinite\" \"rgb L\" [1 1 1]\n"
+                    "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [30 30 30]\n"
+                    "Material \"diffuse\" \"rgb reflectance\" [0 0 0]\nTranslate -3 -3 4\n"
+                    "Shape \"sphere\" \"float radius\" 0.4\nAttributeEnd\n",
+                    width, height) +
+            metal("Cu", 0.1) + "AttributeBegin\nTranslate -1.45 -0.3 0.6\n" +
+            "Shape \"sphere\" \"float radius\" 0.6\nAttributeEnd\n" + metal("Au", 0.05) +
+            "AttributeBegin\nTranslate 0 -0.9 0.6\n" +
+            "Shape \"sphere\" \"float radius\" 0.6\nAttributeEnd\n" + metal("Ag", 0.2) +
+            "AttributeBegin\nTranslate 1.45 -0.3 0.6\n" +
+            "Shape \"sphere\" \"float radius\" 0.6\nAttributeEnd\n" + metal("Cu", 0.1) +
+            "AttributeBegin\nTranslate 0 1.1 1.2\nRotate 25 1 0 0\n" +
+            "Shape \"sphere\" \"float radius\" 1 \"float zmax\" 0\nAttributeEnd\n" +
+            "Material \"diffuse\" \"rgb reflectance\" [0.4 0.4 0.4]\n" +
+            "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point3 P\" "
+            "[-20 -20 0  20 -20 0  20 20 0  -20 20 0]\n",
+        "metals.pbrt");
+    const double luminance = spectrum_to_xyz(light)[1];
+    const auto relight = [&](DenseSpectrum* of) {
+        const double scale = spectrum_to_xyz(*of)[1] / luminance;
+        for (int i = 0; i < spectrum_size; ++i) (*of)[i] = scale * light[i];
+    };
+    for (InfiniteLight& sky : scene.infinite_lights) relight(&sky.radiance);
+    for (AreaLight& lamp : scene.area_lights) relight(&lamp.radiance);
+    scene.warnings.clear();
     return scene;
 }
 

@@ -1,7 +1,6 @@
 // The scenes that charts are drawn of.
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "scene/scene.h"
@@ -27,5 +26,13 @@ Scene half_sphere_in_courtyard(int width, int height, const std::string& materia
 // that it shows three spherical lamps of radius 0.05, 0.2 and 0.6 and the same power: the scene by
 // which Veach & Guibas (1995, SIGGRAPH) showed what multiple importance sampling is for.
 Scene plates_under_lamps(int width, int height);
+
+// Spheres of copper, gold and silver and an open copper cup on grey plaster, under a sky and a lamp
+// of the same spectrum; the sky's luminance is 1. `light` need not be normalised, but must have
+// light that an eye sees.
+Scene metals_in_light(int width, int height, const DenseSpectrum& light);
+
+// One sphere of the given material ("Material ..." line) under the courtyard.
+Scene sphere_in_courtyard(int width, int height, const std::string& material);
 
 }  // namespace drude
