@@ -55,7 +55,7 @@ glm::vec2 direction_of_turn(float t) {
 }  // namespace
 
 Environment::Environment(const Image& image, double scale, const glm::dmat4& world_from_light,
-                         const std::string& where)
+                         const std::string& where, bool compensated)
     : width_(image.width), height_(image.height) {
     lat_long_ = width_ == 2 * height_;
     if (!lat_long_ && width_ != height_) {
@@ -121,7 +121,7 @@ Environment::Environment(const Image& image, double scale, const glm::dmat4& wor
         }
         return rows;
     };
-    double rows = build(static_cast<float>(mean_luminance_));
+    double rows = build(compensated ? static_cast<float>(mean_luminance_) : 0.0f);
     // A constant sky has nothing above its mean.
     if (!(rows > 1e-6 * mean_luminance_ * static_cast<double>(texels_.size()))) rows = build(0);
     const float normalise = static_cast<float>(static_cast<double>(texels_.size()) / rows);

@@ -24,8 +24,9 @@ class Environment {
     // Channels R, G, B (or Y) of `image`, times `scale`. Negative and non-finite texels become 0
     // and are counted. Throws Error (user), naming `where`, unless the picture is 2:1 or square,
     // has colour and is not black all over.
+    // `compensated`: see sample().
     Environment(const Image& image, double scale, const glm::dmat4& world_from_light,
-                const std::string& where);
+                const std::string& where, bool compensated = true);
 
     // Linear RGB radiance that arrives from world direction d (unit, away from the viewer).
     glm::vec3 radiance(const glm::vec3& d) const;
@@ -42,7 +43,8 @@ class Environment {
         float pdf = 0;       // per solid angle
     };
     // Sampled in proportion to luminance less its mean (MIS compensation: Karlik et al. 2019, ACM
-    // TOG 38(6)): what lobe sampling finds by itself is left to it. Uniform numbers in [0, 1).
+    // TOG 38(6)): what lobe sampling finds by itself is left to it. Without compensation in
+    // proportion to luminance. Uniform numbers in [0, 1).
     Sample sample(const glm::vec2& u) const;
     float pdf(const glm::vec3& d) const { return light(d).pdf; }
 
