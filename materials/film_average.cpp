@@ -63,7 +63,6 @@ Index held(const OpticalConstants& constants, double centre, double nm) {
 }  // namespace
 
 int film_harmonics(const Material& material, double wavelength_nm, double cos_theta) {
-    const double u = (1 - cos_theta) * (1 + cos_theta);
     Complex<double> q{cos_theta, 0}, eps{1, 0};
     // A cavity between the strongest of the upper interfaces and the substrate.
     double above = 0, below = 0;
@@ -72,7 +71,7 @@ int film_harmonics(const Material& material, double wavelength_nm, double cos_th
         const Index index =
             (is_substrate ? material.substrate : material.layers[j].constants).at(wavelength_nm);
         const ComplexIndex<double> next{index.n, index.k};
-        const Complex<double> q_next = normal_component(next, u);
+        const Complex<double> q_next = normal_component(next, cos_theta);
         const Complex<double> eps_next = film_detail::squared(next);
         const Amplitudes<double> r = film_detail::interface_amplitudes(q, eps, q_next, eps_next);
         const double strongest = std::sqrt(std::max(norm(r.s), norm(r.p)));

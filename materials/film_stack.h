@@ -39,14 +39,13 @@ Reflection<T> reflect(const ThinFilm<T>* films, int count, const ComplexIndex<T>
                       const T& cos_theta, const T& wavelength) {
     using std::exp;
     if (count == 0) return reflect(substrate, cos_theta);
-    const T u = (T(1.0) - cos_theta) * (T(1.0) + cos_theta);
     const Complex<T> one{T(1.0), T(0.0)};
-    Complex<T> q_below = normal_component(substrate, u);
+    Complex<T> q_below = normal_component(substrate, cos_theta);
     Complex<T> eps_below = film_detail::squared(substrate);
     Amplitudes<T> r{{T(0.0), T(0.0)}, {T(0.0), T(0.0)}};
     for (int j = count - 1; j >= -1; --j) {
         const Complex<T> q =
-            j >= 0 ? normal_component(films[j].index, u) : Complex<T>{cos_theta, T(0.0)};
+            j >= 0 ? normal_component(films[j].index, cos_theta) : Complex<T>{cos_theta, T(0.0)};
         const Complex<T> eps = j >= 0 ? film_detail::squared(films[j].index) : one;
         const Amplitudes<T> step = film_detail::interface_amplitudes(q, eps, q_below, eps_below);
         if (j == count - 1) {
