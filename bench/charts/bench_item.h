@@ -13,8 +13,7 @@ namespace drude {
 struct BenchOptions {
     bool quick = false;  // seconds instead of minutes: fewer settings, seeds and samples
     int seeds = 0;       // 0: the item's own number
-    bool quiet = false;
-    std::string scratch;  // a folder for files on the way, removed afterwards
+    bool quiet = false;  // no progress
 };
 
 struct BenchTable {

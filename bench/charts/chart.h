@@ -46,9 +46,18 @@ std::string chart_svg(const Chart& chart);
 // round-trip precision.
 std::string chart_csv(const Chart& chart);
 
-// Adds the curves of the rows of a CSV that name this chart, as chart_csv writes them (other
-// programs' measurements). Throws Error (user) with file and line for a table of other columns or
-// a number that is none.
-void add_curves(const std::string& path, Chart* chart);
+// A row of such a table, with the chart that it belongs to.
+struct MeasuredPoint {
+    std::string chart, method;
+    ChartPoint point;
+};
+
+// What another program measured, in the format of chart_csv. Throws Error (user) with file and line
+// for other columns and for a number that is none.
+std::vector<MeasuredPoint> read_points(const std::string& path);
+
+// Adds those that name this chart, each to the curve of its method, which is made where it is
+// missing.
+void add_points(const std::vector<MeasuredPoint>& points, Chart* chart);
 
 }  // namespace drude

@@ -11,14 +11,14 @@
 
 namespace drude {
 
-struct Run {
+struct Measured {
     double cost = 0;  // where 0, the processor time of the call is taken (s, this thread)
     double error = 0;
 };
 
 struct Setting {
     std::string name;
-    std::function<Run(uint64_t seed)> run;
+    std::function<Measured(uint64_t seed)> run;
     bool automatic = false;
 };
 

@@ -7,8 +7,7 @@
 namespace drude {
 
 struct MapAxis {
-    std::string label;  // with its unit
-    bool logarithmic = false;
+    std::string label;       // with its unit
     std::vector<double> at;  // ascending; the cells' parameters
 };
 
