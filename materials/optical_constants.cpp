@@ -60,6 +60,10 @@ void OpticalConstants::check() const {
         check_value(sigma_k, "sigma_k", true);
         check_size_of(n, "n");
         check_size_of(k, "k");
+        if (std::hypot(n[i], k[i]) < least_table_index) {
+            user_error("{}: n = {} and k = {} at {} nm, expected n + ik at least {} long", shown,
+                       n[i], k[i], wavelength_nm[i], least_table_index);
+        }
     }
 }
 

@@ -14,8 +14,9 @@ namespace drude {
 // error. Never zero, never silent.
 enum class RangePolicy { clamp, error };
 
-// Beyond this nothing is a medium of light, and in single precision its powers leave the range.
-inline constexpr double largest_table_index = 1e6;
+// Beyond these nothing is a medium of light, and in single precision powers leave the range. The
+// least is that of the length of n + ik.
+inline constexpr double largest_table_index = 1e6, least_table_index = 1e-6;
 
 struct Index {
     double n = 1, k = 0;

@@ -88,8 +88,8 @@ StabilityMap closed_form_map(const std::string& id, const std::string& what, dou
         "from 1e-3 to 1 and the critical one, against extended precision; the worst of them. The "
         "unit is what one unit in the last place of n, k, thickness, wavelength and cosine does. "
         "The lowest thickness stands for 0 as well.";
-    map.x = {"thickness (nm)", true, log_steps(1e-2, 1e5, resolution)};
-    map.y = {"k", true, log_steps(1e-6, 1e2, resolution)};
+    map.x = {"thickness (nm)", log_steps(1e-2, 1e5, resolution)};
+    map.y = {"k", log_steps(1e-6, 1e2, resolution)};
     fill_map(&map, [&](double x, double y) {
         MapCell cell;
         for (const ComplexIndex<double>& substrate : substrates) {
@@ -172,8 +172,8 @@ StabilityMap table_map(const std::string& id, double k, const std::vector<double
     map.outside =
         "`drude render` warns: the film resonates more sharply than its table shows, and by how "
         "much; films above 1e5 nm are refused with the scene";
-    map.x = {"thickness (nm)", true, thicknesses};
-    map.y = {"n of the film", true, indices};
+    map.x = {"thickness (nm)", thicknesses};
+    map.y = {"n of the film", indices};
     fill_map(&map, [&](double x, double y) { return table_cell(x, y, k, angles); });
     return map;
 }

@@ -84,8 +84,8 @@ StabilityMap grazing_map(int resolution) {
     map.caption =
         "Packets of floats against extended precision; each cell is the worst of k = 0 and k from "
         "1e-6 to 100. The unit is what one unit in the last place of n, k and cosine does.";
-    map.x = {"90 - angle of incidence (degrees)", true, log_steps(1e-4, 89.99, resolution)};
-    map.y = {"n", true, log_steps(1e-3, 1e2, resolution)};
+    map.x = {"90 - angle of incidence (degrees)", log_steps(1e-4, 89.99, resolution)};
+    map.y = {"n", log_steps(1e-3, 1e2, resolution)};
     map.y.at.push_back(1);
     std::sort(map.y.at.begin(), map.y.at.end());
     fill_map(&map, [&](double x, double y) {
@@ -113,8 +113,8 @@ StabilityMap index_map(int resolution) {
         "Each cell is the worst over the angles of incidence, grazing, critical and Brewster's among "
         "them. The bound is that of a critical angle, 4 sqrt(2u) for a rounding u = 2^-24 of n or "
         "the cosine; away from it the error is that of map fresnel-metals.";
-    map.x = {"n", true, log_steps(1e-3, 1e2, resolution)};
-    map.y = {"k", true, log_steps(1e-6, 1e2, resolution)};
+    map.x = {"n", log_steps(1e-3, 1e2, resolution)};
+    map.y = {"k", log_steps(1e-6, 1e2, resolution)};
     fill_map(&map, [&](double x, double y) {
         MapCell cell;
         for (const float cosine : telling_cosines(x, y, resolution)) {
@@ -137,8 +137,8 @@ StabilityMap metals_map(int resolution) {
     map.caption =
         "Absorption keeps |q| away from 0, so that no root makes a rounding larger; each cell is the "
         "worst over the angles.";
-    map.x = {"n", true, log_steps(1e-3, 1e2, resolution)};
-    map.y = {"k", true, log_steps(0.05, 1e2, resolution)};
+    map.x = {"n", log_steps(1e-3, 1e2, resolution)};
+    map.y = {"k", log_steps(0.05, 1e2, resolution)};
     fill_map(&map, [&](double x, double y) {
         MapCell cell;
         for (const float cosine : telling_cosines(x, y, resolution)) {
@@ -161,8 +161,8 @@ StabilityMap index_one_map(int resolution) {
     map.caption =
         "n = 1 exactly: without absorption nothing is reflected, however close to grazing; the "
         "lowest row is the worse of its k and of k = 0.";
-    map.x = {"90 - angle of incidence (degrees)", true, log_steps(1e-4, 89.99, resolution)};
-    map.y = {"k", true, log_steps(1e-10, 1, resolution)};
+    map.x = {"90 - angle of incidence (degrees)", log_steps(1e-4, 89.99, resolution)};
+    map.y = {"k", log_steps(1e-10, 1, resolution)};
     fill_map(&map, [&](double x, double y) {
         MapCell cell;
         cell.error = plain_error({1.0f, static_cast<float>(y), cosine_of(x)});
@@ -192,8 +192,8 @@ StabilityMap brewster_map(int resolution) {
     }
     offsets.push_back(0);
     std::sort(offsets.begin(), offsets.end());
-    map.x = {"angle of incidence - Brewster's (degrees)", false, offsets};
-    map.y = {"k", true, log_steps(1e-9, 10, resolution)};
+    map.x = {"angle of incidence - Brewster's (degrees)", offsets};
+    map.y = {"k", log_steps(1e-9, 10, resolution)};
     constexpr double n = 1.5;
     fill_map(&map, [&](double x, double y) {
         const double cosine = std::cos(std::atan(n) + x * degree);
