@@ -44,10 +44,16 @@ Index held(const OpticalConstants& constants, double centre, double nm) {
                             : centre);
 }
 
+// r_s and r_p at one interface; q and eps of the media above and below it.
+Amplitudes<double> interface_amplitudes(const Complex<double>& q1, const Complex<double>& eps1,
+                                        const Complex<double>& q2, const Complex<double>& eps2) {
+    const Complex<double> p1 = eps2 * q1, p2 = eps1 * q2;
+    return {(q1 - q2) / (q1 + q2), (p1 - p2) / (p1 + p2)};
+}
+
 }  // namespace
 
 int film_harmonics(const Material& material, double wavelength_nm, double cos_theta) {
-    const double u = (1 - cos_theta) * (1 + cos_theta);
     Complex<double> q{cos_theta, 0}, eps{1, 0};
     // A cavity between the strongest of the upper interfaces and the substrate.
     double above = 0, below = 0;
@@ -56,9 +62,9 @@ int film_harmonics(const Material& material, double wavelength_nm, double cos_th
         const Index index =
             (is_substrate ? material.substrate : material.layers[j].constants).at(wavelength_nm);
         const ComplexIndex<double> next{index.n, index.k};
-        const Complex<double> q_next = normal_component(next, u);
+        const Complex<double> q_next = normal_component(next, cos_theta);
         const Complex<double> eps_next = film_detail::squared(next);
-        const Amplitudes<double> r = film_detail::interface_amplitudes(q, eps, q_next, eps_next);
+        const Amplitudes<double> r = interface_amplitudes(q, eps, q_next, eps_next);
         const double strongest = std::sqrt(std::max(norm(r.s), norm(r.p)));
         (is_substrate ? below : above) = is_substrate ? strongest : std::max(above, strongest);
         if (material.layers.size() == 1 && !is_substrate) {
