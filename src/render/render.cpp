@@ -16,6 +16,7 @@
 #include "render/film_ranks.h"
 #include "render/geometry_layers.h"
 #include "render/transport_choice.h"
+#include "render/wavelength_choice.h"
 
 namespace drude {
 
@@ -170,8 +171,9 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     summary.warnings = scene.warnings;
     summary.plugins = plugins_of(scene);
     choose_transport(scene, options, &summary);
-    summary.wavelengths =
-        options.wavelengths ? options.wavelengths : (options.spectral ? spectral_bins : 8);
+    summary.wavelengths = options.wavelengths
+                              ? options.wavelengths
+                              : cheapest_exact_wavelengths(scene, options).wavelengths;
 
     const Geometry geometry(scene, options.isa);
     const OpticalElements elements(scene, options.isa);
