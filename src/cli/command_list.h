@@ -19,6 +19,7 @@ Command view_command();
 Command regress_command();
 Command reproduce_command();
 Command report_command();
+Command bench_command();
 Command materials_command();
 Command devices_command();
 

@@ -147,7 +147,9 @@ class Drawing {
     struct Entry {
         std::string name;
         int colour;
-        bool band, points, dashed;
+        bool band;
+        Mark mark;
+        bool dashed;
         double x, y;
     };
 
@@ -161,9 +163,9 @@ class Drawing {
             x += advance;
             legend_.push_back(std::move(entry));
         };
-        for (const Band& b : plot_.bands) place({b.name, b.colour, true, false, false, 0, 0});
+        for (const Band& b : plot_.bands) place({b.name, b.colour, true, Mark::line, false, 0, 0});
         for (const Series& s : plot_.series)
-            place({s.name, s.colour, false, s.mark == Mark::points, s.dashed, 0, 0});
+            place({s.name, s.colour, false, s.mark, s.dashed, 0, 0});
         total_height_ = legend_.empty() ? plot_.height : y + 10;
     }
 
@@ -225,10 +227,23 @@ class Drawing {
     }
 
     void draw(const Series& series) {
-        if (series.mark == Mark::line) {
-            draw_line(series);
-        } else {
-            draw_points(series);
+        switch (series.mark) {
+            case Mark::line:
+                return draw_line(series);
+            case Mark::points:
+                return draw_points(series);
+            case Mark::rings:
+                return draw_rings(series);
+        }
+    }
+
+    void draw_rings(const Series& series) {
+        for (size_t i = 0; i < series.x.size(); ++i) {
+            const double x = x_(series.x[i]), y = y_(series.y[i]);
+            if (std::isnan(x) || std::isnan(y)) continue;
+            add(R"(<circle cx="{:.2f}" cy="{:.2f}" r="{:.2f}" fill="none" style="stroke:{}" )"
+                R"(stroke-width="2"/>)",
+                x, y, series.width, paint(series.colour));
         }
     }
 
@@ -281,7 +296,11 @@ class Drawing {
                 add(R"(<rect x="{:.2f}" y="{:.2f}" width="22" height="9" style="fill:{}" )"
                     R"(fill-opacity="0.3"/>)",
                     entry.x, y - 4.5, colour);
-            } else if (entry.points) {
+            } else if (entry.mark == Mark::rings) {
+                add(R"(<circle cx="{:.2f}" cy="{:.2f}" r="5" fill="none" style="stroke:{}" )"
+                    R"(stroke-width="2"/>)",
+                    entry.x + 11, y, colour);
+            } else if (entry.mark == Mark::points) {
                 add(R"(<circle cx="{:.2f}" cy="{:.2f}" r="3.2" style="fill:{}"/>)", entry.x + 11, y,
                     colour);
             } else {

@@ -12,7 +12,7 @@
 
 namespace drude {
 
-enum class Mark { line, points };
+enum class Mark { line, points, rings };  // rings: around points of other series
 
 struct Series {
     std::string name;  // empty: not in the legend
