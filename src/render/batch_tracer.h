@@ -1,12 +1,14 @@
 // One batch of samples of one pixel: what the driver asks of a transport and a packet width.
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "render/geometry.h"
 #include "render/lights.h"
 #include "render/path.h"
 #include "render/pixel_filter.h"
+#include "render/surface_model.h"
 
 namespace drude {
 
@@ -43,6 +45,9 @@ struct TracerSetup {
     uint64_t seed;
     int max_depth;
     int threads = 0;  // for tables that take a while
+    SurfaceModel surfaces = {};
+    // See BounceChoice::clear_after.
+    int clear_after = std::numeric_limits<int>::max();
 };
 
 // `wavelengths` is 4, 8, 16 or spectral_bins.

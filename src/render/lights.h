@@ -20,8 +20,9 @@ namespace drude {
 // little, and because a distant light that is never picked would be lost.
 class Lights {
   public:
-    // Reads the environments' pictures. `scene` and `geometry` must outlive it.
-    Lights(const Scene& scene, const Geometry& geometry);
+    // Reads the environments' pictures. `scene` and `geometry` must outlive it. `constant_skies`:
+    // constant infinite lights are picked too (light_choice.h).
+    Lights(const Scene& scene, const Geometry& geometry, bool constant_skies = true);
 
     enum class Kind { environment, constant, distant, point, area };
 
@@ -42,7 +43,8 @@ class Lights {
     // `at` is where the light is wanted; u_choice, u uniform in [0, 1).
     Sample sample(const glm::vec3& at, float u_choice, const glm::vec2& u) const;
 
-    bool empty() const { return emitters_.empty(); }
+    // Whether there is no light at all, picked or not.
+    bool empty() const { return !shines_; }
     // Whether light of some emitter is polarised; otherwise the dop of everything here is 0.
     bool any_polarised() const { return any_polarised_; }
 
@@ -99,7 +101,7 @@ class Lights {
     std::vector<size_t> light_of_;     // first emitter of the light that an emitter belongs to
     std::vector<float> cdf_;           // cumulative probability of the emitters
     std::vector<int> first_of_shape_;  // emitter of a shape's first primitive, or -1
-    bool any_polarised_ = false;
+    bool any_polarised_ = false, shines_ = false;
     std::vector<UniformPolarisation> distant_polarisation_, point_polarisation_, area_polarisation_;
     std::vector<std::string> warnings_;
 };
