@@ -1,9 +1,15 @@
 #include "bench/charts/bench_items.h"
 
+#include "bench/charts/defaults_item.h"
+
 namespace drude {
 
 const std::vector<BenchItem>& bench_items() {
-    static const std::vector<BenchItem> all = {};
+    static const std::vector<BenchItem> all = {
+        {"defaults", "No more model than a scene needs",
+         "what is chosen by itself against the richest of everything, on the scenes of scenes/",
+         run_defaults},
+    };
     return all;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 
 #include "materials/dielectric.h"
@@ -113,6 +115,31 @@ double albedo_of(const Scene& scene, int material) {
     return std::clamp(std::visit(AlbedoVisitor{scene}, scene.materials[material]), 0.0, 1.0);
 }
 
+// In world space; round shapes under the mean scale of their transform.
+double world_area(const Shape& shape) {
+    const glm::dmat3 linear(shape.world_from_object);
+    const double scale2 = std::pow(std::abs(glm::determinant(linear)), 2.0 / 3);
+    if (const auto* s = std::get_if<Sphere>(&shape.geometry)) {
+        return scale2 * s->phi_max_deg * degree * s->radius * (s->z_max - s->z_min);
+    }
+    if (const auto* d = std::get_if<Disk>(&shape.geometry)) {
+        const double radii = d->radius * d->radius - d->inner_radius * d->inner_radius;
+        return scale2 * d->phi_max_deg * degree * radii / 2;
+    }
+    if (const auto* c = std::get_if<Cylinder>(&shape.geometry)) {
+        return scale2 * c->phi_max_deg * degree * c->radius * (c->z_max - c->z_min);
+    }
+    const auto& mesh = std::get<TriangleMesh>(shape.geometry);
+    double area = 0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const auto side = [&](uint32_t to) {
+            return linear * (glm::dvec3(mesh.positions[to]) - glm::dvec3(mesh.positions[t.x]));
+        };
+        area += glm::length(glm::cross(side(t.y), side(t.z))) / 2;
+    }
+    return area;
+}
+
 }  // namespace
 
 BounceChoice bounce_choice(const Scene& scene) {
@@ -141,14 +168,19 @@ BounceChoice bounce_choice(const Scene& scene) {
                         scene.max_depth)};
 }
 
-double largest_albedo(const Scene& scene) {
-    double largest = 0;
+SceneAlbedo scene_albedo(const Scene& scene) {
+    SceneAlbedo result;
+    double area = 0;
     for (const Shape& shape : scene.shapes) {
-        if (!is_optical_element(scene, shape)) {
-            largest = std::max(largest, albedo_of(scene, shape.material));
-        }
+        if (shape.material < 0 || is_optical_element(scene, shape)) continue;
+        const double albedo = albedo_of(scene, shape.material);
+        const double here = world_area(shape);
+        result.largest = std::max(result.largest, albedo);
+        result.mean += here * albedo;
+        area += here;
     }
-    return largest;
+    if (area > 0) result.mean /= area;
+    return result;
 }
 
 double light_beyond(double albedo, int reflections) {

@@ -21,10 +21,14 @@ struct BounceChoice {
 // once. Otherwise the scene's limit stands.
 BounceChoice bounce_choice(const Scene& scene);
 
-// The largest share of unpolarised light from all sides that a surface of the scene gives back,
-// weighed by the eye's sensitivity in light of equal energy; of textures what is typical of them, 1
-// for what is not known (plugins) or loses nothing (glass). In [0, 1].
-double largest_albedo(const Scene& scene);
+// The share of unpolarised light from all sides that the scene's surfaces give back, weighed by the
+// eye's sensitivity in light of equal energy; of textures what is typical of them, 1 for what is
+// not known (plugins) or loses nothing (glass). In [0, 1]; 0 and 0 without surfaces.
+struct SceneAlbedo {
+    double mean = 0;  // over the area of the surfaces, spheres taken as round whatever their scale
+    double largest = 0;
+};
+SceneAlbedo scene_albedo(const Scene& scene);
 
 // The share of the light that paths of more than `reflections` bring where all surfaces have the
 // albedo and enclose the camera: albedo^(reflections + 1). In an open scene it is less.

@@ -11,7 +11,7 @@ LightChoice light_choice(const Scene& scene, const RenderOptions& options) {
         std::any_of(scene.infinite_lights.begin(), scene.infinite_lights.end(),
                     [](const InfiniteLight& light) { return !light.image.empty(); }) ||
         !scene.distant_lights.empty() || !scene.point_lights.empty() || !scene.area_lights.empty();
-    if (options.sample_every_light) return {true, skies || others, "asked for"};
+    if (options.sample_every_light) return {skies, skies || others, "asked for"};
     if (!others) {
         return {false, false,
                 skies ? "all light comes from a constant sky, which lobes find with less noise"

@@ -95,22 +95,23 @@ ModelDecision wavelength_decision(const Scene& scene, const RenderOptions& optio
 
 ModelDecision bounce_decision(const Scene& scene, const RenderOptions& options) {
     const BounceChoice chosen = bounce_choice(scene);
-    const double albedo = largest_albedo(scene);
+    const SceneAlbedo scene_wide = scene_albedo(scene);
+    const double albedo = scene_wide.mean;
     // Surroundings that are closed and alike: albedo^i of the paths have an i-th reflection.
     const auto cost = [&](int reflections) -> DecisionFigure {
         const double most = std::max(0, reflections);
         const double mean =
             albedo < 1 ? albedo * (1 - std::pow(albedo, most)) / (1 - albedo) : most;
         return {mean, "reflections a path",
-                fmt::format("estimated: an albedo of {:.3g} on all sides, which is the largest in "
-                            "the scene",
+                fmt::format("estimated: closed surroundings of the scene's mean albedo {:.3g}",
                             albedo)};
     };
     const auto error = [&](int reflections) -> DecisionFigure {
         return {light_beyond(albedo, reflections), "of the light",
                 fmt::format("estimated: {:.3g}^{}, what is left in closed surroundings of the "
-                            "scene's largest albedo",
-                            albedo, reflections + 1)};
+                            "scene's mean albedo; of its largest, {:.3g}, {:.2g}",
+                            albedo, reflections + 1, scene_wide.largest,
+                            light_beyond(scene_wide.largest, reflections))};
     };
     ModelDecision decision;
     decision.name = "bounces";
