@@ -19,6 +19,9 @@ std::vector<StabilityMap> mirror_maps(int resolution, int samples);
 std::vector<StabilityMap> light_maps(const std::vector<double>& widths, int resolution,
                                      int samples);
 std::vector<StabilityMap> table_maps(int resolution);
+std::vector<StabilityMap> bulk_fit_maps(int resolution, int seeds);
+std::vector<StabilityMap> film_fit_maps(int resolution, int seeds);
+std::vector<StabilityMap> capture_maps(int resolution, int seeds);
 
 BenchItem fresnel_stability_item();
 BenchItem film_stability_item();
@@ -27,5 +30,7 @@ BenchItem frame_stability_item();
 BenchItem mirror_stability_item();
 BenchItem light_stability_item();
 BenchItem table_stability_item();
+BenchItem fit_stability_item();
+BenchItem capture_stability_item();
 
 }  // namespace drude
