@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "base/counter_random.h"
+#include "bench/charts/bench_items.h"
 #include "bench/charts/map_grid.h"
 #include "bench/charts/stability_maps.h"
 #include "device/signal/psi_delta.h"
@@ -38,8 +39,7 @@ MapCell capture_cell(double psi_deg, double delta_deg, double noise, bool two_cy
     int refused = 0;
     for (int seed = 1; seed <= seeds; ++seed) {
         const double psi = psi_deg * degree, delta = delta_deg * degree;
-        std::vector<BinScan> scans{
-            scan_of(psi, delta, noise, false, static_cast<uint64_t>(seed))};
+        std::vector<BinScan> scans{scan_of(psi, delta, noise, false, static_cast<uint64_t>(seed))};
         RetarderState retarder;
         if (two_cycles) {
             scans.push_back(scan_of(psi, delta, noise, true, static_cast<uint64_t>(seed)));
@@ -64,9 +64,11 @@ StabilityMap capture_map(const std::string& id, double psi_deg, bool two_cycles,
                          int seeds) {
     StabilityMap map;
     map.id = id;
-    map.title = fmt::format("Delta next to 180 degrees, {}", two_cycles ? "two cycles" : "one cycle");
+    map.title =
+        fmt::format("Delta next to 180 degrees, {}", two_cycles ? "two cycles" : "one cycle");
     map.error = "standard deviations from the truth";
     map.bound = 6;
+    map.domain = "everywhere";
     map.outside = "rows that no sample gives are left out with a warning, and held ones counted";
     map.caption = fmt::format(
         "Psi and Delta of scans with errors of alpha and beta, Psi = {} degrees; the worst of {} "

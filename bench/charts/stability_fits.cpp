@@ -1,15 +1,16 @@
-// Fits where the data hold little: tan^2 Psi alone, angles far from the principal one, Delta next to
-// 0 and 180 degrees, noise from 0 to a hundredfold, films with few fringes or few wavelengths.
+// Fits where the data hold little: tan^2 Psi alone, angles far from the principal one, Delta next
+// to 0 and 180 degrees, noise from 0 to a hundredfold, films with few fringes or few wavelengths.
 //
 // Here the error is the distance of the estimate from the truth in standard deviations as the fit
-// states them, the worst of some seeds; a fit that is refused, or marks a parameter as at its bound,
-// has said so. Inside a domain estimates are within five of them.
+// states them, the worst of some seeds; a fit that is refused, or marks a parameter as at its
+// bound, has said so. Inside a domain estimates are within five of them.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "bench/charts/bench_items.h"
 #include "bench/charts/map_grid.h"
 #include "bench/charts/stability_maps.h"
 #include "device/virtual/ellipsometer_simulation.h"
@@ -68,10 +69,10 @@ FitOptions options_of(const std::string& estimator) {
 // Throws Error (answer_is_no).
 FittedPoint fitted(const Metal& metal, const std::vector<double>& angles, double noise,
                    const FitOptions& options, int seed) {
-    return fit_measurement(simulate_ellipsometer(bulk(metal.n, metal.k),
-                                                 setup_of(angles, noise,
-                                                          static_cast<uint64_t>(seed))),
-                           options)
+    return fit_measurement(
+               simulate_ellipsometer(bulk(metal.n, metal.k),
+                                     setup_of(angles, noise, static_cast<uint64_t>(seed))),
+               options)
         .points.at(0);
 }
 
@@ -141,8 +142,8 @@ std::string domain_in_words(const std::string& estimator) {
 }
 
 StabilityMap noise_map(const std::string& estimator, int resolution, int seeds) {
-    StabilityMap map = fit_map("fits-noise-" + estimator,
-                               fmt::format("Noise and metals, {}", estimator), seeds);
+    StabilityMap map =
+        fit_map("fits-noise-" + estimator, fmt::format("Noise and metals, {}", estimator), seeds);
     map.caption += " Six angles from 45 to 80 degrees.";
     map.x = {"noise over 0.05 and 0.1 degrees", log_steps(1e-3, 100, resolution)};
     map.y = {metal_axis, metal_numbers};
@@ -251,17 +252,21 @@ std::vector<StabilityMap> bulk_fit_maps(int resolution, int seeds) {
     return maps;
 }
 
-std::vector<StabilityMap> film_fit_maps(int resolution, int seeds) {
+std::vector<StabilityMap> film_fit_maps(int resolution, int seeds, bool all) {
     StabilityMap noise = fit_map("fits-film", "Thickness of a film", seeds);
     noise.caption +=
         " Alumina of porosity 0.15 on aluminium, 60 and 70 degrees, 186 wavelengths from 380 to "
         "750 nm, no start given: every fringe that fits between the data is a basin of its own.";
+    noise.domain = "everywhere";
     noise.x = {"thickness (nm)", log_steps(50, 6000, resolution)};
-    noise.y = {"noise over 0.05 and 0.1 degrees", {0.1, 1, 10, 100}};
+    noise.y = {"noise over 0.05 and 0.1 degrees", {1, 100}};
+    if (all) noise.y.at = {0.1, 1, 10, 100};
     fill_map(&noise, [&](double x, double y) { return film_cell(x, y, 186, true, seeds); });
     StabilityMap missing = fit_map("fits-film-wavelengths", "Missing wavelengths", seeds);
     missing.caption += " The same at the usual noise with fewer wavelengths over the same range.";
-    missing.x = {"wavelengths", {3, 5, 8, 12, 20, 40, 100}};
+    missing.domain = "everywhere";
+    missing.x = {"wavelengths", {3, 12}};
+    if (all) missing.x.at = {2, 3, 5, 8, 12, 20, 40, 100};
     missing.y = {"thickness (nm)", log_steps(50, 6000, resolution)};
     fill_map(&missing,
              [&](double x, double y) { return film_cell(y, 1, static_cast<int>(x), true, seeds); });
@@ -275,7 +280,7 @@ BenchItem fit_stability_item() {
                 BenchResult result;
                 result.maps = options.quick ? bulk_fit_maps(8, 4) : bulk_fit_maps(32, 16);
                 for (StabilityMap& map :
-                     options.quick ? film_fit_maps(4, 1) : film_fit_maps(12, 3)) {
+                     options.quick ? film_fit_maps(2, 1, false) : film_fit_maps(8, 1, true)) {
                     result.maps.push_back(std::move(map));
                 }
                 return result;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/mat4x4.hpp>
 
+#include "bench/charts/bench_items.h"
 #include "bench/charts/map_grid.h"
 #include "bench/charts/stability_maps.h"
 #include "materials/scalar.h"
@@ -65,8 +66,7 @@ Estimate irradiance(const Environment& environment, int samples) {
             value = turn - std::floor(turn);
         }
         double value = 0;
-        const auto s =
-            environment.sample({static_cast<float>(u[0]), static_cast<float>(u[1])});
+        const auto s = environment.sample({static_cast<float>(u[0]), static_cast<float>(u[1])});
         if (s.d.z > 0 && s.pdf > 0) {
             const float cosine = s.d.z / static_cast<float>(pi);
             value += static_cast<double>(s.radiance.y * s.d.z / s.pdf * share(s.pdf, cosine));
@@ -100,7 +100,8 @@ std::vector<StabilityMap> light_maps(const std::vector<double>& widths, int reso
     bias.domain = "everywhere";
     bias.outside = "a sky that is black, or whose sum is no float: refused when it is read";
     bias.caption = fmt::format(
-        "A constant sky with one bright texel on a plane, {} samples of the renderer's own sampling "
+        "A constant sky with one bright texel on a plane, {} samples of the renderer's own "
+        "sampling "
         "in floats, against the closed form.",
         samples);
     bias.x = {"width of the sky (texels)", widths};

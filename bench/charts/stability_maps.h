@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "bench/charts/bench_item.h"
 #include "bench/charts/stability.h"
 
 namespace drude {
@@ -20,17 +19,8 @@ std::vector<StabilityMap> light_maps(const std::vector<double>& widths, int reso
                                      int samples);
 std::vector<StabilityMap> table_maps(int resolution);
 std::vector<StabilityMap> bulk_fit_maps(int resolution, int seeds);
-std::vector<StabilityMap> film_fit_maps(int resolution, int seeds);
+// Of few thicknesses, noises and wavelengths where not `all`: a fit takes about a second.
+std::vector<StabilityMap> film_fit_maps(int resolution, int seeds, bool all);
 std::vector<StabilityMap> capture_maps(int resolution, int seeds);
-
-BenchItem fresnel_stability_item();
-BenchItem film_stability_item();
-BenchItem lobe_stability_item();
-BenchItem frame_stability_item();
-BenchItem mirror_stability_item();
-BenchItem light_stability_item();
-BenchItem table_stability_item();
-BenchItem fit_stability_item();
-BenchItem capture_stability_item();
 
 }  // namespace drude
