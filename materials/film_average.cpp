@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "materials/film_stack.h"
+#include "materials/quadrature.h"
 
 namespace drude {
 
@@ -25,29 +26,12 @@ AverageNodes gaussian_nodes(double phase, int harmonics) {
     return nodes;
 }
 
-// Gauss-Legendre: Newton's method on P_n from its recurrence (Abramowitz & Stegun 1964, 22.7.10,
-// 25.4.29). With n nodes exp(i a x) is averaged to about (e a / 4n)^2n / 2: below 1e-4 here for the
-// highest harmonic, a = harmonics * phase.
+// With n nodes of Gauss-Legendre exp(i a x) is averaged to about (e a / 4n)^2n / 2: below 1e-4 here
+// for the highest harmonic, a = harmonics * phase.
 AverageNodes uniform_nodes(double phase, int harmonics) {
     const int n = static_cast<int>(std::ceil(0.7 * harmonics * std::abs(phase))) + 2;
-    AverageNodes nodes;
-    for (int i = 0; i < n; ++i) {
-        double x = std::cos(pi * (i + 0.75) / (n + 0.5)), slope = 1;
-        for (int step = 0; step < 50; ++step) {
-            double p = 1, before = 0;
-            for (int k = 1; k <= n; ++k) {
-                const double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
-                before = p;
-                p = next;
-            }
-            slope = n * (x * p - before) / (x * x - 1);
-            const double change = p / slope;
-            x -= change;
-            if (std::abs(change) < 1e-15) break;
-        }
-        nodes.x.push_back(x);
-        nodes.weight.push_back(1 / ((1 - x * x) * slope * slope));
-    }
+    AverageNodes nodes = gauss_legendre(n);
+    for (double& weight : nodes.weight) weight /= 2;
     return nodes;
 }
 

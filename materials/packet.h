@@ -1,7 +1,8 @@
 // N floats side by side in SIMD registers, one lane a wavelength.
 //
 // Built on the vector extension that g++ and clang share: the same source runs on any x86-64 and
-// becomes AVX or AVX-512 where the build allows it. N is 4 or a multiple of 8.
+// becomes AVX or AVX-512 where the build allows it. N is 4 or a multiple of 8, or 1: a plain float
+// with a packet's interface.
 #pragma once
 
 #include <cmath>
@@ -30,7 +31,7 @@ struct PacketMask {
 
 template <int N>
 struct Packet {
-    static_assert(N == 4 || (N % 8 == 0 && N > 0), "a packet fills whole registers");
+    static_assert(N == 1 || N == 4 || (N % 8 == 0 && N > 0), "a packet fills whole registers");
     static constexpr int size = N;
     static constexpr int registers = N / packet_lanes<N>;
     using Vector [[gnu::vector_size(4 * packet_lanes<N>)]] = float;
@@ -116,6 +117,9 @@ Packet<N> abs(const Packet<N>& a) {
     return max(a, -a);
 }
 
+inline Packet<1> sqrt(const Packet<1>& a) {
+    return Packet<1>(std::sqrt(a[0]));
+}
 #if defined(__SSE2__)
 inline Packet<4> sqrt(const Packet<4>& a) {
     __m128 lanes;

@@ -151,8 +151,9 @@ using SurfaceTables =
 
 template <int N>
 struct SpectralTables {
-    // All must outlive it. `threads` share the work of tabulating films.
-    SpectralTables(const Scene& scene, const NumberTextures& numbers, int threads)
+    // All but `observer` must outlive it. `threads` share the work of tabulating films.
+    SpectralTables(const Scene& scene, const NumberTextures& numbers, int threads,
+                   const ColourMatching& observer = cie1931())
         : textures(scene, numbers) {
         for (const SurfaceMaterial& material : scene.materials) {
             surfaces.push_back(
@@ -173,9 +174,9 @@ struct SpectralTables {
             primary[c] = 1;
             rgb_basis[c] = PackedSpectrum<N>(rgb_illuminant(primary));
         }
-        x = PackedSpectrum<N>(cie1931().x);
-        y = PackedSpectrum<N>(cie1931().y);
-        z = PackedSpectrum<N>(cie1931().z);
+        x = PackedSpectrum<N>(observer.x);
+        y = PackedSpectrum<N>(observer.y);
+        z = PackedSpectrum<N>(observer.z);
     }
 
     // The spectrum of RGB light from an environment's picture: basis times illuminant, summed.
