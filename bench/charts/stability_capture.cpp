@@ -47,8 +47,9 @@ MapCell capture_cell(double psi_deg, double delta_deg, double noise, bool two_cy
             retarder = {true, pi / 2, 1};
         }
         const PsiDelta found = combine_scans(scans, retarder, {});
-        // The sweep counts both and says how many, with the range of wavelengths.
-        if (found.state == PsiDeltaState::impossible || found.state == PsiDeltaState::half_wave) {
+        // The reduction leaves the first two out and warns of all three, with their number.
+        if (found.state == PsiDeltaState::impossible || found.state == PsiDeltaState::half_wave ||
+            found.faint) {
             ++refused;
             continue;
         }
@@ -56,7 +57,10 @@ MapCell capture_cell(double psi_deg, double delta_deg, double noise, bool two_cy
         keep_worst(off / std::sqrt(found.noise.bb), &cell.error);
         keep_worst(std::abs(found.psi - psi) / std::sqrt(found.noise.aa), &cell.error);
     }
-    cell.refused = refused == seeds;
+    // Inside nothing may be said, outside what stands without a warning counts.
+    const double t = std::tan(psi_deg * degree), lack = 2 * std::min(1.0, t * t) / (1 + t * t);
+    cell.inside = lack > 10 * noise;
+    cell.refused = cell.inside ? refused > 0 : refused == seeds;
     return cell;
 }
 
@@ -67,13 +71,20 @@ StabilityMap capture_map(const std::string& id, double psi_deg, bool two_cycles,
     map.title =
         fmt::format("Delta next to 180 degrees, {}", two_cycles ? "two cycles" : "one cycle");
     map.error = "standard deviations from the truth";
-    map.bound = 6;
-    map.domain = "everywhere";
-    map.outside = "rows that no sample gives are left out with a warning, and held ones counted";
+    map.bound = two_cycles ? 6 : 10;
+    map.domain = "noise below a tenth of what |alpha| = cos 2Psi lacks of 1";
+    map.outside =
+        "a warning with the number of rows: left out where no sample gives them, or Psi so near 0 "
+        "or "
+        "90 degrees that noise reaches it";
     map.caption = fmt::format(
         "Psi and Delta of scans with errors of alpha and beta, Psi = {} degrees; the worst of {} "
-        "seeds, in the standard deviations that the reduction states.",
-        psi_deg, seeds);
+        "seeds, in the standard deviations that the reduction states.{}",
+        psi_deg, seeds,
+        two_cycles
+            ? ""
+            : " One cycle gives cos Delta alone: next to 180 degrees five standard deviations "
+              "of it are ten of Delta.");
     map.x = {"180 - Delta (degrees)", log_steps(1e-4, 90, resolution)};
     map.y = {"noise of alpha and beta", log_steps(1e-6, 0.1, std::max(6, resolution / 2))};
     fill_map(&map, [&](double x, double y) {

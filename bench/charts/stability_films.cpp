@@ -81,7 +81,7 @@ StabilityMap closed_form_map(const std::string& id, const std::string& what, dou
     map.id = id;
     map.title = "Films in " + what;
     map.error = "error in last digits of the input";
-    map.bound = 32;
+    map.bound = 16;
     map.domain = "everywhere";
     map.outside = "thickness below 0 or not a number: refused when it is read";
     map.caption =
@@ -192,8 +192,8 @@ std::vector<StabilityMap> film_table_maps(bool all) {
     std::vector<double> thicknesses{0.1, 10, 100, 1000, 5000};
     std::vector<double> indices{0.3, 0.9, 1.5, 2.4};
     if (all) {
-        thicknesses = {0.1, 1, 10, 30, 100, 300, 1000, 3000, 6000, 1e4, 3e4, 1e5};
-        indices = {0.3, 0.6, 0.9, 1, 1.33, 1.5, 1.77, 2.4};
+        thicknesses = {0.1, 1, 10, 30, 100, 300, 1000, 3000, 1e4, 1e5};
+        indices = {0.3, 0.9, 1, 1.5, 2.4};
     }
     const int angles = all ? 60 : 20;
     StabilityMap clear = table_map("films-table-clear", 0, thicknesses, indices, angles);
@@ -214,7 +214,7 @@ BenchItem film_stability_item() {
             "closed form and tables from 0 to 100 micrometres, absorbing and totally reflecting",
             [](const BenchOptions& options) {
                 BenchResult result;
-                result.maps = film_maps(options.quick ? 6 : 24);
+                result.maps = film_maps(options.quick ? 6 : 16);
                 for (StabilityMap& map : film_table_maps(!options.quick)) {
                     result.maps.push_back(std::move(map));
                 }

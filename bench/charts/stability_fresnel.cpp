@@ -182,7 +182,7 @@ StabilityMap brewster_map(int resolution) {
     map.id = "fresnel-brewster";
     map.title = "Delta at Brewster's angle";
     map.error = "error of Delta in last digits of the input";
-    map.bound = 16;
+    map.bound = 4;
     map.domain = "k from 1e-9 to 10, n = 1.5, on both sides of the angle";
     map.outside =
         "k = 0 at Brewster's angle itself: r_p = 0 and Delta jumps by 180 degrees; Psi = 0 says so";

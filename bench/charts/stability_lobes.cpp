@@ -254,7 +254,7 @@ BenchItem lobe_stability_item() {
             "norm, sampling, densities and white furnace from beta 1e-6 to 1.5",
             [](const BenchOptions& options) {
                 BenchResult result;
-                result.maps = options.quick ? lobe_maps(8, 1024) : lobe_maps(24, 8192);
+                result.maps = options.quick ? lobe_maps(8, 1024) : lobe_maps(16, 4096);
                 return result;
             }};
 }
