@@ -36,6 +36,11 @@ struct PathSetup {
     Throughput<transport, N> first;  // the camera's analyser, or nothing
 };
 
+// After as many bounces a path ends at random however bright it is. Earlier, light that comes over
+// hundreds of good mirrors would rest on a few paths of enormous weight: ending with probability q
+// a bounce makes their variance grow as (R^2 / (1 - q))^bounces.
+inline constexpr int most_certain_bounces = 1024;
+
 template <Transport transport, int N>
 class Path {
   public:
@@ -68,7 +73,7 @@ class Path {
             if (!(alive > 0)) break;
             if (depth_ > 2) {
                 // Between perfect mirrors nothing else would ever end a path.
-                const float at_most = depth_ > 64 ? 0.95f : 1.0f;
+                const float at_most = depth_ > most_certain_bounces ? 0.95f : 1.0f;
                 const float survival = std::clamp(alive, 0.05f, at_most);
                 if (survival < 1) {
                     if (sampler_.next_1d() >= survival) break;

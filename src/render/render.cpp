@@ -177,6 +177,12 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     if (options.lights_are_built) options.lights_are_built();
     summary.warnings.insert(summary.warnings.end(), lights.warnings().begin(),
                             lights.warnings().end());
+    if (scene.max_depth > most_certain_bounces) {
+        summary.warnings.push_back(
+            fmt::format("maxdepth is {}: paths of more than {} bounces end at random, so that light "
+                        "which comes over more mirrors is noise",
+                        scene.max_depth, most_certain_bounces));
+    }
     if (lights.empty()) summary.warnings.push_back("the scene has no light; the picture is black");
     const CameraRays camera(scene.camera, scene.film.width, scene.film.height);
     const PixelFilter filter(scene.filter);
