@@ -3,8 +3,9 @@
 namespace drude {
 
 const std::vector<BenchItem>& bench_items() {
-    static const std::vector<BenchItem> all = {transport_item(), wavelength_item(),
-                                               sampling_item()};
+    static const std::vector<BenchItem> all = {transport_item(), wavelength_item(), sampling_item(),
+                                               fresnel_item(),   microfacet_item(), fit_item(),
+                                               capture_item()};
     return all;
 }
 

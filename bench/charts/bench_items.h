@@ -7,7 +7,11 @@
 namespace drude {
 
 BenchItem transport_item();
-BenchItem sampling_item();
 BenchItem wavelength_item();
+BenchItem sampling_item();
+BenchItem fresnel_item();
+BenchItem microfacet_item();
+BenchItem fit_item();
+BenchItem capture_item();
 
 }  // namespace drude

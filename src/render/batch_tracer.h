@@ -30,6 +30,8 @@ class BatchTracer {
     // Fills rgb (and spectral, where the tracer carries all bins); adds to `statistics`.
     virtual void trace(const BatchRequest& request, BatchResult* result,
                        PathStatistics* statistics) const = 0;
+    // What its tables cannot hold as exactly as they should; for people.
+    virtual std::vector<std::string> warnings() const = 0;
 };
 
 struct TracerSetup {

@@ -80,6 +80,8 @@ class PacketBatchTracer final : public BatchTracer {
         }
     }
 
+    std::vector<std::string> warnings() const override { return tables_.warnings(); }
+
   private:
     static Throughput<transport, N> before_the_camera(const Camera& camera) {
         if (!camera.analyser) return {};

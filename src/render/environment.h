@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "image/image.h"
 #include "render/cumulative.h"
 
@@ -53,12 +54,16 @@ class Environment {
   private:
     // `l` in light space, of any length.
     size_t texel(const glm::vec3& l) const;
+    size_t texel_of_group(size_t y, size_t first, float u, float* inside) const;
 
     bool lat_long_;
     int width_, height_;
     glm::mat3 light_from_world_, world_from_light_;  // of determinant +-1
-    std::vector<glm::vec4> texels_;  // radiance, and the density over the unit square
-    CumulativeRows rows_, columns_;
+    HugePageVector<glm::vec4> texels_;  // radiance, and the density over the unit square
+    // Texels are chosen by row, by group of neighbours in it, and within the group by the texels
+    // themselves: they fill the cache line that is read for the radiance anyway.
+    static constexpr int group_size = 4;
+    CumulativeRows rows_, groups_;
     std::vector<float> edge_;  // lat-long: cosines between the rows
     int repaired_ = 0;
     double mean_luminance_ = 0;
