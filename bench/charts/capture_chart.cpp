@@ -57,10 +57,11 @@ std::vector<NamedRecipe> recipes(bool quick) {
         add("steps: 1 frame, 1 cycle, 1 zone", fmt::format("{} steps", n),
             [n](Recipe* r) { r->steps = n, r->averages = 1, r->cycles = 1, r->zones_deg = {45}; });
     }
-    const std::vector<int> darks = quick ? std::vector<int>{16, 256} : std::vector<int>{4, 64, 256};
+    const std::vector<int> darks =
+        quick ? std::vector<int>{16, 256} : std::vector<int>{4, 16, 64, 256};
     for (const int n : darks) {
-        add("dark frames: 24 steps, 16 frames, 2 cycles, 1 zone", fmt::format("{} dark frames", n),
-            [n](Recipe* r) { r->dark_frames = n, r->averages = 16, r->zones_deg = {45}; });
+        add("dark frames: 24 steps, 4 frames, 2 cycles, 2 zones", fmt::format("{} dark frames", n),
+            [n](Recipe* r) { r->dark_frames = n; });
     }
     return all;
 }
