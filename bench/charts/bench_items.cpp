@@ -3,7 +3,8 @@
 namespace drude {
 
 const std::vector<BenchItem>& bench_items() {
-    static const std::vector<BenchItem> all = {fresnel_item(), microfacet_item(), fit_item(),
+    static const std::vector<BenchItem> all = {transport_item(), wavelength_item(), sampling_item(),
+                                               fresnel_item(),   microfacet_item(), fit_item(),
                                                capture_item()};
     return all;
 }

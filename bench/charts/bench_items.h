@@ -6,6 +6,9 @@
 
 namespace drude {
 
+BenchItem transport_item();
+BenchItem wavelength_item();
+BenchItem sampling_item();
 BenchItem fresnel_item();
 BenchItem microfacet_item();
 BenchItem fit_item();

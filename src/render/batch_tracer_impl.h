@@ -11,7 +11,7 @@ class PacketBatchTracer final : public BatchTracer {
   public:
     explicit PacketBatchTracer(const TracerSetup& setup)
         : setup_(setup),
-          tables_(setup.scene, setup.numbers, setup.threads),
+          tables_(setup.scene, setup.numbers, setup.threads, *setup.observer),
           path_{setup.scene,
                 setup.geometry,
                 setup.lights,
@@ -20,6 +20,7 @@ class PacketBatchTracer final : public BatchTracer {
                 tables_,
                 setup.camera.handedness(),
                 setup.max_depth,
+                setup.strategy,
                 before_the_camera(setup.scene.camera)} {}
 
     void trace(const BatchRequest& request, BatchResult* result,
@@ -78,6 +79,8 @@ class PacketBatchTracer final : public BatchTracer {
             }
         }
     }
+
+    std::vector<std::string> warnings() const override { return tables_.warnings(); }
 
   private:
     static Throughput<transport, N> before_the_camera(const Camera& camera) {

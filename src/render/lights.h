@@ -10,6 +10,7 @@
 #include "render/environment.h"
 #include "render/geometry.h"
 #include "render/light_polarisation.h"
+#include "render/sampling_strategy.h"
 #include "scene/scene.h"
 
 namespace drude {
@@ -20,8 +21,9 @@ namespace drude {
 // little, and because a distant light that is never picked would be lost.
 class Lights {
   public:
-    // Reads the environments' pictures. `scene` and `geometry` must outlive it.
-    Lights(const Scene& scene, const Geometry& geometry);
+    // Reads the environments' pictures, and samples them as the strategy says. `scene` and
+    // `geometry` must outlive it.
+    Lights(const Scene& scene, const Geometry& geometry, const SamplingStrategy& strategy = {});
 
     enum class Kind { environment, constant, distant, point, area };
 

@@ -190,6 +190,9 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
                           {scene, geometry, lights, elements, numbers, camera, filter,
                            options.seed.value_or(scene.seed), scene.max_depth, options.threads});
 
+    const std::vector<std::string> coarse = tracer->warnings();
+    summary.warnings.insert(summary.warnings.end(), coarse.begin(), coarse.end());
+
     const FilmPart part = part_for(scene, options, summary, geometry.isa());
     RenderedFilm film{std::move(summary), part, FilmSums(part.job.layout()), {}};
     if (!options.checkpoint.empty()) take_up(options, &film);
