@@ -18,7 +18,7 @@ double film_effect(const Material& material) {
         for (int i = 0; i < angles; ++i) {
             const double cosine = std::cos(largest_angle * i / (angles - 1));
             const int harmonics = film_harmonics(material, nm, cosine);
-            Reflection<double> with{0, 0, 0, 0};
+            Reflection<double> with{0, 0, 0, 0}, bare{0, 0, 0, 0};
             for (const FilmSample& sample : film_samples(material, nm, 1.0, harmonics)) {
                 std::vector<ThinFilm<double>> films;
                 for (size_t j = 0; j < sample.layers.size(); ++j) {
@@ -29,10 +29,9 @@ double film_effect(const Material& material) {
                 add_weighted(reflect(films.data(), static_cast<int>(films.size()), substrate,
                                      cosine, sample.wavelength_nm),
                              sample.weight, &with);
+                // Averaged alike, so that the films alone make the difference.
+                add_weighted(reflect(substrate, cosine), sample.weight, &bare);
             }
-            const Index bare_index = material.substrate.at(nm);
-            const Reflection<double> bare =
-                reflect(ComplexIndex<double>{bare_index.n, bare_index.k}, cosine);
             for (const double change :
                  {with.Rs - bare.Rs, with.Rp - bare.Rp, with.C - bare.C, with.S - bare.S}) {
                 largest = std::max(largest, std::abs(change));

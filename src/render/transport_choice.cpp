@@ -100,7 +100,12 @@ TransportChoice transport_choice(const Scene& scene, const RenderOptions& option
         return {Transport::stokes, "S0..S3 are wanted"};
     }
     if (options.transport) return {*options.transport, "asked for"};
-    return cheapest_exact_transport(scene, bounce_choice(scene).reflections);
+    TransportChoice choice = cheapest_exact_transport(scene, scene.max_depth);
+    const int reflections = bounce_choice(scene).reflections;
+    if (choice.transport != Transport::scalar && reflections < scene.max_depth) {
+        choice = cheapest_exact_transport(scene, reflections);
+    }
+    return choice;
 }
 
 }  // namespace drude
