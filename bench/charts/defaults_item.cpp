@@ -240,7 +240,7 @@ BenchResult run_defaults(const BenchOptions& options) {
         "order shuffled; one thread. Richest: Stokes transport, 40 wavelengths, every light "
         "sampled, every ray traced, no lobe a mirror, every film kept; the scene's maxdepth.",
         size, samples, seeds);
-    ChartCurve by_default{"default", {}}, richest{"richest", {}};
+    ChartCurve by_default{"default", {}, false}, richest{"richest", {}, false};
     for (const Compared& one : all) {
         by_default.points.push_back(point_of(one.scene, one.cheap_seconds, one.cheap_error, true));
         richest.points.push_back(point_of(one.scene, one.rich_seconds, one.rich_error, false));
