@@ -181,7 +181,7 @@ void add_findings(const Subject& subject, Experiment* e) {
                         subject.ways[i].name, over_samples.points.back().error,
                         subject.samples.back(), log_slope(over_samples));
         if (subject.ways[i].name != usual_name) {
-            text += fmt::format("; takes {:.2f} times the time of {} for its error",
+            text += fmt::format("; takes {:.3g} times the time of {} for its error",
                                 time_ratio(e->over_time[i], best), usual_name);
         } else {
             text += ", the usual way";

@@ -136,7 +136,7 @@ void add_findings(const Figures& f, Chart* chart) {
     }
     // Noise falls as one over the root of the samples; here it meets the bias.
     chart->findings.push_back(
-        fmt::format("Pixels are off by {:.2g} % (root mean square), as much as the noise of {:.2g} "
+        fmt::format("Pixels are off by {:.3g} % (root mean square), as much as the noise of {:.2g} "
                     "samples a pixel.",
                     100 * bias.rms, f.most * std::pow(f.error[1] / bias.rms, 2)));
 }
@@ -187,7 +187,7 @@ std::vector<std::vector<std::string>> rows_of_table(const Subject& subject, cons
                         fmt::format("{:.2f}", f.cost[t] / f.cost[0]),
                         fmt::format("{:.3g}", f.error[t]),
                         bias.is_exact() ? "0" : signed_percent(bias.mean, bias.sigma),
-                        fmt::format("{:.2g}", bias.is_exact() ? 0 : 100 * bias.rms), stokes});
+                        fmt::format("{:.3g}", bias.is_exact() ? 0 : 100 * bias.rms), stokes});
     }
     return rows;
 }

@@ -27,6 +27,7 @@ constexpr uint64_t reference_seed = 900003;
 struct Subject {
     std::string id, title;
     Scene scene;
+    std::vector<int> samples;
     int reference_samples;
     // Of metals in one light: three channels too, whose picture is times this colour of the light.
     // Those of one wavelength and of three channels have the transport scalar alone.
@@ -50,16 +51,20 @@ void add_film(const std::string& set, double nanometres, Scene* scene) {
 std::vector<Subject> subjects(bool quick) {
     const auto pick = [quick](int a, int b) { return quick ? a : b; };
     const int width = pick(16, 32), height = pick(12, 24), reference = pick(512, 4096);
+    const std::vector<int> samples =
+        quick ? std::vector<int>{16, 64} : std::vector<int>{16, 64, 256};
+    // Long enough to see where three channels stop getting better.
+    const std::vector<int> many = quick ? samples : std::vector<int>{16, 64, 256, 1024};
     std::vector<Subject> all;
     for (const ChartIlluminant& light : chart_illuminants()) {
         all.push_back({"metals-" + light.id, "metals in " + light.name,
-                       metals_in_light(width, height, light.spectrum), reference / 2,
+                       metals_in_light(width, height, light.spectrum), many, 2 * reference,
                        xyz_to_rgb(light.white())});
     }
     const auto courtyard = [&](const std::string& id, const std::string& title,
                                const std::string& material) {
         all.push_back({id, title + " in the courtyard",
-                       sphere_in_courtyard(height, height, material), reference});
+                       sphere_in_courtyard(height, height, material), samples, reference});
     };
     courtyard("copper", "polished copper",
               "Material \"conductor\" \"string material\" \"Cu\" \"string lobe\" \"blinn-phong\" "
@@ -74,10 +79,10 @@ std::vector<Subject> subjects(bool quick) {
     all.back().id = "thick-film";
     all.back().title = "aluminium under 3000 nm of its oxide in the courtyard";
     add_film("Al2O3", 3000, &all.back().scene);
-    all.push_back({"teapot", "a gold teapot on plaster", teapot_on_plaster(height, height),
+    all.push_back({"teapot", "a gold teapot on plaster", teapot_on_plaster(height, height), samples,
                    reference / 2, std::nullopt, false});
     all.push_back({"box", "a closed box of metals",
-                   chart_scene("cornell-metals", height / 2, height / 2), reference / 2,
+                   chart_scene("cornell-metals", height / 2, height / 2), samples, reference / 2,
                    std::nullopt, false});
     return all;
 }
@@ -153,7 +158,8 @@ const ChartCurve& curve_of(const Chart& chart, int count) {
                          [&](const ChartCurve& c) { return c.method == method_name(count); });
 }
 
-void add_findings(const Subject& subject, const std::vector<int>& samples, Experiment* e) {
+void add_findings(const Subject& subject, Experiment* e) {
+    const std::vector<int>& samples = subject.samples;
     Chart& chart = e->chart;
     const ChartCurve& usual = curve_of(chart, e->automatic);
     std::string text =
@@ -186,8 +192,8 @@ void add_findings(const Subject& subject, const std::vector<int>& samples, Exper
     }
 }
 
-Experiment experiment(const Subject& subject, const std::vector<int>& samples, int seeds,
-                      Progress* progress) {
+Experiment experiment(const Subject& subject, int seeds, Progress* progress) {
+    const std::vector<int>& samples = subject.samples;
     const TracedScene scene(subject.scene);
     const Transport transport = subject.transport();
     const ReferencePicture halves =
@@ -235,7 +241,7 @@ Experiment experiment(const Subject& subject, const std::vector<int>& samples, i
             " RGB: three channels of one packet of four, lights white, the picture times the "
             "light's colour.";
     }
-    add_findings(subject, samples, &e);
+    add_findings(subject, &e);
     return e;
 }
 
@@ -260,27 +266,25 @@ BenchTable phase_table() {
 
 BenchResult run(const BenchOptions& options) {
     const std::vector<Subject> all = subjects(options.quick);
-    const std::vector<int> samples =
-        options.quick ? std::vector<int>{16, 64} : std::vector<int>{16, 64, 256};
     const int seeds = options.seeds > 0 ? options.seeds : (options.quick ? 2 : 4);
     size_t steps = 0;
     for (const Subject& s : all) {
-        steps += 1 + (std::size(counts) + (s.light ? 3 : 0)) * samples.size() *
+        steps += 1 + (std::size(counts) + (s.light ? 3 : 0)) * s.samples.size() *
                          static_cast<size_t>(seeds);
     }
     Progress progress("wavelengths", steps, options.quiet);
     BenchResult result;
     BenchTable table;
     table.id = "wavelengths-summary";
-    table.caption = fmt::format(
-        "Wavelengths a path: mean Delta E 2000 with {} samples a pixel, and in parentheses the "
-        "time for the error that 8 wavelengths have.",
-        samples.back());
-    table.columns = {"scene", "auto"};
+    table.caption =
+        "Wavelengths a path: mean Delta E 2000 with the most samples, and in parentheses the time "
+        "for the error that 8 wavelengths have.";
+    table.columns = {"scene", "spp", "auto"};
     for (const int count : counts) table.columns.push_back(method_name(count));
     for (const Subject& subject : all) {
-        Experiment e = experiment(subject, samples, seeds, &progress);
-        std::vector<std::string> row = {subject.title, fmt::format("{}", e.automatic)};
+        Experiment e = experiment(subject, seeds, &progress);
+        std::vector<std::string> row = {subject.title, fmt::format("{}", subject.samples.back()),
+                                        fmt::format("{}", e.automatic)};
         for (const int count : counts) {
             if (!has_curve(e.chart, count)) {
                 row.push_back("");
