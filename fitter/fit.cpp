@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/executor.h"
+#include "fitter/dispersion_choice.h"
 #include "fitter/dispersion_fit.h"
 #include "fitter/film_fit.h"
 #include "fitter/fit_data.h"
@@ -190,7 +191,8 @@ void scale_sigmas(FitResult* result) {
 
 void warn_about_result(FitResult* result, const FitOptions& options) {
     std::map<std::string, std::vector<double>> refused;
-    std::vector<double> bounded, vague;
+    std::vector<double> bounded, vague, rough;
+    const bool by_points = result->model != "film" && result->dispersion.empty();
     for (const FittedPoint& point : result->points) {
         if (!point.identifiable) {
             refused[point.reason].push_back(point.wavelength_nm);
@@ -199,6 +201,8 @@ void warn_about_result(FitResult* result, const FitOptions& options) {
         if (point.at_bound) bounded.push_back(point.wavelength_nm);
         if (point.sigma_n > point.n || (point.k > 0 && point.sigma_k > point.k)) {
             vague.push_back(point.wavelength_nm);
+        } else if (by_points && understates_errors(point, parse_estimator(options.estimator))) {
+            rough.push_back(point.wavelength_nm);
         }
     }
     for (const auto& [reason, wavelengths] : refused) {
@@ -217,6 +221,13 @@ void warn_about_result(FitResult* result, const FitOptions& options) {
         result->warnings.push_back(
             fmt::format("a standard deviation exceeds its value at {} of {} wavelengths ({})",
                         vague.size(), result->points.size(), wavelength_list(vague)));
+    }
+    if (!rough.empty()) {
+        result->warnings.push_back(fmt::format(
+            "five standard deviations of n or k reach 0 at {} of {} wavelengths ({}): tan^2 Psi "
+            "alone scatters them by more than that (--profile shows how far; --estimator psi-delta "
+            "takes Delta as well)",
+            rough.size(), result->points.size(), wavelength_list(rough)));
     }
     for (const FittedParameter& parameter : result->common) {
         if (!parameter.identifiable) {
@@ -271,6 +282,7 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
     if (options.robust != "none") return fit_robust(measurement, options);
     if (options.model == "auto") return fit_ladder(measurement, options);
     if (options.model == "film") return fit_film(measurement, options);
+    if (options.dispersion == "auto") return fit_dispersion_if_it_holds(measurement, options);
     FitResult result;
     result.estimator = options.estimator;
     result.model = options.model;

@@ -33,6 +33,12 @@ FittedPoint fit_point_from(const WavelengthData& data, Estimator estimator, Inde
 inline constexpr double not_known_at_all = 100;
 void refuse_if_unknown(const WavelengthData& data, Estimator estimator, FittedPoint* point);
 
+// Whether five standard deviations of n or of k reach 0 in a fit of tan^2 Psi alone. Its chi-square
+// follows the logarithms of n and k along a bent valley: noise then takes an estimate much further
+// than the standard deviations say, those of aluminium and silver by five and more of them. Psi and
+// Delta together are linear enough in n and k for their standard deviations to hold there.
+bool understates_errors(const FittedPoint& point, Estimator estimator);
+
 // Why data that hold nothing are refused.
 inline constexpr const char* normal_incidence_reason =
     "within their noise the data are Psi = 45 and Delta = 180 degrees, as of every surface near "

@@ -14,4 +14,15 @@ BenchItem microfacet_item();
 BenchItem fit_item();
 BenchItem capture_item();
 
+// Stability where methods fail.
+BenchItem fresnel_stability_item();
+BenchItem film_stability_item();
+BenchItem lobe_stability_item();
+BenchItem frame_stability_item();
+BenchItem mirror_stability_item();
+BenchItem light_stability_item();
+BenchItem table_stability_item();
+BenchItem fit_stability_item();
+BenchItem capture_stability_item();
+
 }  // namespace drude

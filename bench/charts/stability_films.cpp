@@ -12,6 +12,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "bench/charts/bench_items.h"
 #include "bench/charts/exact_fresnel.h"
 #include "bench/charts/map_grid.h"
 #include "bench/charts/stability_maps.h"
@@ -32,8 +33,8 @@ struct Stack {
 template <class T>
 Stack rounded(const Stack& s) {
     const auto r = [](double value) { return static_cast<double>(static_cast<T>(value)); };
-    return {r(s.n), r(s.k), r(s.thickness), r(s.wavelength), r(s.cosine),
-            {r(s.substrate.n), r(s.substrate.k)}};
+    return {r(s.n),          r(s.k),      r(s.thickness),
+            r(s.wavelength), r(s.cosine), {r(s.substrate.n), r(s.substrate.k)}};
 }
 
 Reflection<Exact> exact(const Stack& s, int input = -1, double change = 1) {
@@ -80,7 +81,7 @@ StabilityMap closed_form_map(const std::string& id, const std::string& what, dou
     map.id = id;
     map.title = "Films in " + what;
     map.error = "error in last digits of the input";
-    map.bound = 32;
+    map.bound = 16;
     map.domain = "everywhere";
     map.outside = "thickness below 0 or not a number: refused when it is read";
     map.caption =
@@ -165,7 +166,8 @@ StabilityMap table_map(const std::string& id, double k, const std::vector<double
     map.error = "largest error of a Mueller element";
     map.bound = 1e-3;
     map.caption = fmt::format(
-        "FilmTable of a film of k = {} on silver (n + ik = 0.05 + 3.09i, the sharpest resonator) at "
+        "FilmTable of a film of k = {} on silver (n + ik = 0.05 + 3.09i, the sharpest resonator) "
+        "at "
         "four wavelengths, against the mean over each nanometre of the closed form in double; "
         "angles from grazing to normal, and densely about the critical angle.",
         k);
@@ -181,25 +183,25 @@ StabilityMap table_map(const std::string& id, double k, const std::vector<double
 }  // namespace
 
 std::vector<StabilityMap> film_maps(int resolution) {
-    return {closed_form_map<Packet<8>, float>("films-float", "packets of floats", 0x1p-23,
-                                              resolution),
-            closed_form_map<double, double>("films-double", "double", 0x1p-52, resolution)};
+    return {
+        closed_form_map<Packet<8>, float>("films-float", "packets of floats", 0x1p-23, resolution),
+        closed_form_map<double, double>("films-double", "double", 0x1p-52, resolution)};
 }
 
 std::vector<StabilityMap> film_table_maps(bool all) {
     std::vector<double> thicknesses{0.1, 10, 100, 1000, 5000};
     std::vector<double> indices{0.3, 0.9, 1.5, 2.4};
     if (all) {
-        thicknesses = {0.1, 1, 10, 30, 100, 300, 1000, 3000, 6000, 1e4, 3e4, 1e5};
-        indices = {0.3, 0.6, 0.9, 1, 1.33, 1.5, 1.77, 2.4};
+        thicknesses = {0.1, 1, 10, 30, 100, 300, 1000, 3000, 1e4, 1e5};
+        indices = {0.3, 0.9, 1, 1.5, 2.4};
     }
     const int angles = all ? 60 : 20;
     StabilityMap clear = table_map("films-table-clear", 0, thicknesses, indices, angles);
     clear.title = "Tables of clear films";
     clear.domain = "n at least 1, thickness up to 1e4 nm";
     for (size_t i = 0; i < clear.cells.size(); ++i) {
-        clear.cells[i].inside = clear.y.at[i / clear.x.at.size()] >= 1 &&
-                                clear.x.at[i % clear.x.at.size()] <= 1e4;
+        clear.cells[i].inside =
+            clear.y.at[i / clear.x.at.size()] >= 1 && clear.x.at[i % clear.x.at.size()] <= 1e4;
     }
     StabilityMap lossy = table_map("films-table-absorbing", 0.01, thicknesses, indices, angles);
     lossy.title = "Tables of absorbing films";
@@ -212,7 +214,7 @@ BenchItem film_stability_item() {
             "closed form and tables from 0 to 100 micrometres, absorbing and totally reflecting",
             [](const BenchOptions& options) {
                 BenchResult result;
-                result.maps = film_maps(options.quick ? 6 : 24);
+                result.maps = film_maps(options.quick ? 6 : 16);
                 for (StabilityMap& map : film_table_maps(!options.quick)) {
                     result.maps.push_back(std::move(map));
                 }

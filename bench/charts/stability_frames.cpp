@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/charts/bench_items.h"
 #include "bench/charts/map_grid.h"
 #include "bench/charts/stability_maps.h"
 #include "materials/dielectric.h"
@@ -75,8 +76,8 @@ Vec3<float> frame_across(const Vec3<double>& k, double turn) {
 }
 
 // Normals in general position, and those at which bases of other people's making break.
-const Vec3<double> normals[] = {{0, 0, 1}, {0, 0, -1}, {0.6, 0, 0.8}, {-0.36, 0.48, -0.8},
-                                {1, 0, 0}, {0.577, 0.577, -0.578}};
+const Vec3<double> normals[] = {{0, 0, 1},           {0, 0, -1}, {0.6, 0, 0.8},
+                                {-0.36, 0.48, -0.8}, {1, 0, 0},  {0.577, 0.577, -0.578}};
 
 // Light at `angle` (radians) to the normal, turned around it by 1 radian.
 struct Ray {
@@ -102,12 +103,10 @@ double reflection_error(double angle, double turn) {
         e.x_in = frame_across(ray.in, 0.3);
         e.x_out = frame_across(glm::normalize(Vec3<double>(e.out)), turn);
         const float cosine = std::min(1.0f, glm::dot(i, e.m));
-        const double exact_cosine =
-            std::min(1.0, glm::dot(glm::normalize(Vec3<double>(i)), ray.m));
-        keep_worst(
-            largest_difference(fast(e, reflect(ComplexIndex<P>{P(n), P(k)}, P(cosine))),
-                               exact(e, reflect(ComplexIndex<double>{n, k}, exact_cosine))),
-            &worst);
+        const double exact_cosine = std::min(1.0, glm::dot(glm::normalize(Vec3<double>(i)), ray.m));
+        keep_worst(largest_difference(fast(e, reflect(ComplexIndex<P>{P(n), P(k)}, P(cosine))),
+                                      exact(e, reflect(ComplexIndex<double>{n, k}, exact_cosine))),
+                   &worst);
     }
     return worst;
 }
@@ -126,10 +125,9 @@ double refraction_error(double angle, double bend) {
         e.arriving = -Vec3<float>(glm::normalize((cosine - q) * ray.m - ray.in));
         e.x_in = frame_across(glm::normalize(Vec3<double>(e.arriving)), 0.3);
         e.x_out = frame_across(ray.in, 0.9);
-        keep_worst(
-            largest_difference(fast(e, divide_at_interface(P(eta), P(cosine)).transmitted),
-                               exact(e, divide_at_interface(eta, cosine).transmitted)),
-            &worst);
+        keep_worst(largest_difference(fast(e, divide_at_interface(P(eta), P(cosine)).transmitted),
+                                      exact(e, divide_at_interface(eta, cosine).transmitted)),
+                   &worst);
     }
     return worst;
 }
@@ -145,7 +143,8 @@ std::vector<StabilityMap> frame_maps(int resolution) {
     back.domain = "everywhere, angle 0 included";
     back.outside = "nothing is";
     back.caption =
-        "Reflection off copper between two fixed frames; the lowest angle stands for 0 as well. Six "
+        "Reflection off copper between two fixed frames; the lowest angle stands for 0 as well. "
+        "Six "
         "normals, among them those along the axes.";
     back.x = {"angle of incidence (degrees)", log_steps(1e-7, 45, resolution)};
     back.y = {"turn of the camera's frame (degrees)", even_steps(0, 180, resolution / 2 + 1)};
@@ -176,7 +175,8 @@ std::vector<StabilityMap> frame_maps(int resolution) {
     forward.bound = 5e-6;
     forward.domain = "everywhere, matched indices included";
     forward.caption =
-        "Refraction where the indices nearly match and the ray is hardly bent: the s axis is that of "
+        "Refraction where the indices nearly match and the ray is hardly bent: the s axis is that "
+        "of "
         "the facet, so that forward is no special direction.";
     forward.x = {"relative index less 1", log_steps(1e-7, 1, resolution)};
     forward.y = {"angle of incidence (degrees)", log_steps(1e-6, 85, resolution)};

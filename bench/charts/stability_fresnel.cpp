@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/charts/bench_items.h"
 #include "bench/charts/exact_fresnel.h"
 #include "bench/charts/map_grid.h"
 #include "bench/charts/stability_maps.h"
@@ -40,7 +41,8 @@ double last_digits(Exact n, Exact k, Exact cosine, double digit) {
     for (int input = 0; input < 3; ++input) {
         double worst = 0;
         for (const double change : {1 - digit, 1 + digit}) {
-            const Exact moved_n = input == 0 ? n * change : n, moved_k = input == 1 ? k * change : k;
+            const Exact moved_n = input == 0 ? n * change : n,
+                        moved_k = input == 1 ? k * change : k;
             const Exact moved = input == 2 ? std::min<Exact>(1, cosine * change) : cosine;
             keep_worst(largest_difference(exact_reflect(moved_n, moved_k, moved), exact), &worst);
         }
@@ -110,7 +112,8 @@ StabilityMap index_map(int resolution) {
     map.domain = "everywhere";
     map.outside = "n = 0, k < 0, indices above 1e6, NaN: refused when they are read";
     map.caption =
-        "Each cell is the worst over the angles of incidence, grazing, critical and Brewster's among "
+        "Each cell is the worst over the angles of incidence, grazing, critical and Brewster's "
+        "among "
         "them. The bound is that of a critical angle, 4 sqrt(2u) for a rounding u = 2^-24 of n or "
         "the cosine; away from it the error is that of map fresnel-metals.";
     map.x = {"n", log_steps(1e-3, 1e2, resolution)};
@@ -135,7 +138,8 @@ StabilityMap metals_map(int resolution) {
     map.domain = "k from 0.05 to 100, n from 1e-3 to 100, all angles";
     map.outside = "k below 0.05: map fresnel-index";
     map.caption =
-        "Absorption keeps |q| away from 0, so that no root makes a rounding larger; each cell is the "
+        "Absorption keeps |q| away from 0, so that no root makes a rounding larger; each cell is "
+        "the "
         "worst over the angles.";
     map.x = {"n", log_steps(1e-3, 1e2, resolution)};
     map.y = {"k", log_steps(0.05, 1e2, resolution)};
@@ -178,7 +182,7 @@ StabilityMap brewster_map(int resolution) {
     map.id = "fresnel-brewster";
     map.title = "Delta at Brewster's angle";
     map.error = "error of Delta in last digits of the input";
-    map.bound = 16;
+    map.bound = 4;
     map.domain = "k from 1e-9 to 10, n = 1.5, on both sides of the angle";
     map.outside =
         "k = 0 at Brewster's angle itself: r_p = 0 and Delta jumps by 180 degrees; Psi = 0 says so";

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "bench/charts/bench_items.h"
 #include "bench/charts/map_grid.h"
 #include "bench/charts/stability_maps.h"
 #include "materials/microfacet.h"
@@ -225,7 +226,8 @@ std::vector<StabilityMap> lobe_maps(int resolution, int samples) {
         density.error = "error of an integral by importance sampling";
         density.bound = 0.03;
         density.caption = fmt::format(
-            "The integral of the density of two thirds of the width by {} samples of floats; most of "
+            "The integral of the density of two thirds of the width by {} samples of floats; most "
+            "of "
             "the error is that of so few samples.",
             samples);
         maps.push_back(std::move(density));
@@ -234,9 +236,11 @@ std::vector<StabilityMap> lobe_maps(int resolution, int samples) {
         light.error = "error of radiance, of 1";
         light.bound = 5e-3;
         light.caption = fmt::format(
-            "A round light of radiance 1 about the mirrored direction, 2 beta in radius, by {} lobe "
+            "A round light of radiance 1 about the mirrored direction, 2 beta in radius, by {} "
+            "lobe "
             "samples and as many of the light with the power heuristic: floats against double from "
-            "the same uniform numbers. A direction of floats is good to 6e-8, and the half vector of "
+            "the same uniform numbers. A direction of floats is good to 6e-8, and the half vector "
+            "of "
             "two of them to 6e-8 over the cosine, so that a lobe of beta = 1e-5 is seen blurred "
             "towards grazing; its light is not lost.",
             samples);
@@ -250,7 +254,7 @@ BenchItem lobe_stability_item() {
             "norm, sampling, densities and white furnace from beta 1e-6 to 1.5",
             [](const BenchOptions& options) {
                 BenchResult result;
-                result.maps = options.quick ? lobe_maps(8, 1024) : lobe_maps(24, 8192);
+                result.maps = options.quick ? lobe_maps(8, 1024) : lobe_maps(16, 4096);
                 return result;
             }};
 }

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "bench/charts/bench_item.h"
 #include "bench/charts/stability.h"
 
 namespace drude {
@@ -19,13 +18,9 @@ std::vector<StabilityMap> mirror_maps(int resolution, int samples);
 std::vector<StabilityMap> light_maps(const std::vector<double>& widths, int resolution,
                                      int samples);
 std::vector<StabilityMap> table_maps(int resolution);
-
-BenchItem fresnel_stability_item();
-BenchItem film_stability_item();
-BenchItem lobe_stability_item();
-BenchItem frame_stability_item();
-BenchItem mirror_stability_item();
-BenchItem light_stability_item();
-BenchItem table_stability_item();
+std::vector<StabilityMap> bulk_fit_maps(int resolution, int seeds);
+// Of few thicknesses, noises and wavelengths where not `all`: a fit takes about a second.
+std::vector<StabilityMap> film_fit_maps(int resolution, int seeds, bool all);
+std::vector<StabilityMap> capture_maps(int resolution, int seeds);
 
 }  // namespace drude

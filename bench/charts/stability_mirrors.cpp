@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/charts/bench_items.h"
 #include "bench/charts/map_grid.h"
 #include "bench/charts/stability_maps.h"
 #include "materials/mueller.h"
@@ -63,7 +64,8 @@ StabilityMap product_map(const std::vector<double>& bounces, int resolution) {
     map.domain = "everywhere";
     map.outside = "nothing is";
     map.caption =
-        "Throughput of floats with its Fresnel equations against the power of one bounce in double; "
+        "Throughput of floats with its Fresnel equations against the power of one bounce in "
+        "double; "
         "the worst of aluminium, silver, gold and copper. A bounce adds some 1e-6.";
     map.x = {"reflections", bounces};
     map.y = {"angle of incidence (degrees)", even_steps(0, 89, resolution)};

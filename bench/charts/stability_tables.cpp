@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
+#include "bench/charts/bench_items.h"
 #include "bench/charts/map_grid.h"
 #include "bench/charts/stability_maps.h"
-#include "base/error.h"
 #include "materials/optical_constants.h"
 
 namespace drude {
@@ -27,11 +28,11 @@ MapCell table_cell(OpticalConstants constants, RangePolicy policy, double nm) {
         const Index found = constants.at(nm);
         // Every command prints it.
         cell.refused = !constants.range_warning(nm, nm).empty();
-        cell.error = cell.inside ? std::hypot(found.n - interpolated(constants.wavelength_nm,
-                                                                     constants.n, nm),
-                                              found.k - interpolated(constants.wavelength_nm,
-                                                                     constants.k, nm))
-                                 : HUGE_VAL;  // nobody knows
+        cell.error =
+            cell.inside
+                ? std::hypot(found.n - interpolated(constants.wavelength_nm, constants.n, nm),
+                             found.k - interpolated(constants.wavelength_nm, constants.k, nm))
+                : HUGE_VAL;  // nobody knows
     } catch (const Error&) {
         cell.refused = true;
     }

@@ -76,7 +76,7 @@ struct Averages {
     Triple value = {};
     TripleCovariance noise, common;
     int with_retarder = 0, without = 0;
-    bool possible = true;
+    bool possible = true, faint = false;
 };
 
 Averages average(const std::vector<BinScan>& scans, const RetarderState& retarder,
@@ -102,6 +102,8 @@ Averages average(const std::vector<BinScan>& scans, const RetarderState& retarde
         const int slot = scan.retarder_in ? 2 : 1;
         const double share_c = 1.0 / (scan.retarder_in ? result.with_retarder : result.without);
         const double weight_l = scan.retarder_in && !psi_from_both ? 0 : share_l;
+        const double sigma_a = std::sqrt(scan.fit.noise.aa + square(scan.fit.dark_alpha));
+        result.faint = result.faint || 1 - std::abs(a) < 5 * sigma_a;
         const double rest = (1 - a) * (1 + a), root = std::sqrt(rest);
         const double sign = std::tan(scan.analyser_rad) > 0 ? 1 : -1;
         const double t = scan.retarder_in && retarder.known ? retarder.diattenuation : 1;
@@ -139,6 +141,7 @@ PsiDelta combine_scans(const std::vector<BinScan>& scans, const RetarderState& r
         result.state = PsiDeltaState::impossible;
         return result;
     }
+    result.faint = mean.faint;
     const double c1 = mean.value[1], c2 = mean.value[2];
     result.psi = std::atan(std::exp(mean.value[0]));
     const Triple psi = {std::sin(2 * result.psi) / 2, 0, 0};

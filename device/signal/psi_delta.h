@@ -55,6 +55,9 @@ struct PsiDelta {
     // depolarise; 1 where there is one cycle only.
     double coherence = 1;
     bool two_cycles = false;
+    // |alpha| of a scan is within five of its standard deviations of 1: noise reaches Psi = 0 or 90
+    // degrees. The standard deviations stated, which are those of small errors, are then too small.
+    bool faint = false;
 };
 
 // At least one scan, one of them without the retarder. With one cycle Delta is taken in

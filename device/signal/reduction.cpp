@@ -22,7 +22,7 @@ constexpr double coherence_excess = 0.02;
 struct AngleScans {
     std::vector<size_t> scans;
     double common_psi = 0, common_delta = 0;  // sums of squares
-    int rows = 0, unusable = 0, impossible = 0, clamped = 0, half_wave = 0, excess = 0;
+    int rows = 0, unusable = 0, impossible = 0, clamped = 0, half_wave = 0, excess = 0, faint = 0;
     int lower_half = 0;  // rows with Delta above 180 degrees
     bool retarder = false;
 };
@@ -102,6 +102,9 @@ void warn(const std::map<double, AngleScans>& angles, const Calibration& calibra
             "and the linearity");
         say(group.half_wave, "left out: the retarder is within 6 degrees of a half or full wave");
         say(group.clamped, "with |cos Delta| above 1 by noise, Delta set to 0 or 180 degrees");
+        say(group.faint,
+            "with Psi so near 0 or 90 degrees that noise reaches it; their standard deviations are "
+            "too small");
         say(group.excess,
             "more coherent than any sample by over 2 %; see to the retarder's calibration and the "
             "linearity");
@@ -189,6 +192,7 @@ Reduction reduce_scans(const std::vector<Scan>& scans, const SpectrometerInfo& s
                 continue;
             }
             if (pair.state == PsiDeltaState::clamped) ++group.clamped;
+            if (pair.faint) ++group.faint;
             MeasurementRow row;
             row.wavelength_nm = nm;
             row.angle_deg = angle;

@@ -32,8 +32,14 @@ struct PathSetup {
     float handedness;
     int max_depth;
     SamplingStrategy strategy;
+    int clear_after;                 // rays after so many reflections meet nothing
     Throughput<transport, N> first;  // the camera's analyser, or nothing
 };
+
+// After as many bounces a path ends at random however bright it is. Earlier, light that comes over
+// hundreds of good mirrors would rest on a few paths of enormous weight: ending with probability q
+// a bounce makes their variance grow as (R^2 / (1 - q))^bounces.
+inline constexpr int most_certain_bounces = 1024;
 
 template <Transport transport, int N>
 class Path {
@@ -67,7 +73,7 @@ class Path {
             if (!(alive > 0)) break;
             if (depth_ > 2) {
                 // Between perfect mirrors nothing else would ever end a path.
-                const float at_most = depth_ > 64 ? 0.95f : 1.0f;
+                const float at_most = depth_ > most_certain_bounces ? 0.95f : 1.0f;
                 const float survival = std::clamp(alive, 0.05f, at_most);
                 if (survival < 1) {
                     if (sampler_.next_1d() >= survival) break;
@@ -82,8 +88,11 @@ class Path {
     // To the next surface and off it; whether the path goes on.
     bool step() {
         Hit hit;
-        ++statistics_.rays;
-        const bool is_hit = setup_.geometry.intersect(o_, d_, &hit);
+        bool is_hit = false;
+        if (depth_ < setup_.clear_after) {
+            ++statistics_.rays;
+            is_hit = setup_.geometry.intersect(o_, d_, &hit);
+        }
         if (!setup_.elements.empty()) {
             pass_elements(o_, d_,
                           is_hit ? glm::length(hit.p - o_) : std::numeric_limits<float>::infinity(),
@@ -208,7 +217,10 @@ class Path {
         if (metal.roughness) {
             const double alpha =
                 setup_.numbers.alpha(*metal.roughness, TexturePoint(setup_.geometry, v.hit));
-            return with_lobe(v, metal, Microfacets<float>::from_alpha(alpha, metal.masking), body);
+            return with_lobe(
+                v, metal,
+                Microfacets<float>::from_alpha(tables_.model.lobe_width(alpha), metal.masking),
+                body);
         }
         return with_lobe(v, metal, metal.microfacets, body);
     }
@@ -380,6 +392,7 @@ class Path {
     bool reaches(const Vertex& v, const Lights::Sample& l, bool transmits) {
         const float side = glm::dot(l.d, v.hit.ng);
         if (!(transmits ? side < 0 : side > 0)) return false;
+        if (depth_ >= setup_.clear_after) return true;
         ++statistics_.rays;
         const glm::vec3 from = leave(v.hit, l.d);
         if (std::isinf(l.distance)) return !setup_.geometry.occluded(from, l.d, l.distance);
