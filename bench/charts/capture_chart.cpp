@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/progress.h"
 #include "bench/charts/bench_items.h"
 #include "bench/charts/capture_experiment.h"
 #include "bench/charts/experiment.h"
@@ -86,7 +87,7 @@ const std::vector<BenchKind>& benches() {
 using Outcomes = std::vector<std::vector<CaptureOutcome>>;
 
 Outcomes run_all(const std::vector<NamedRecipe>& named, const BenchKind& bench, int seeds,
-                 size_t metals) {
+                 size_t metals, bool quiet) {
     Outcomes outcomes(named.size(), std::vector<CaptureOutcome>(static_cast<size_t>(seeds)));
     std::vector<Method> methods;
     for (size_t i = 0; i < named.size(); ++i) {
@@ -114,7 +115,8 @@ Outcomes run_all(const std::vector<NamedRecipe>& named, const BenchKind& bench, 
                        return Measured{1, 0};
                    }}}});
     }
-    run_shuffled(methods, seeds);
+    Progress progress("sweeps, " + bench.name, named.size() * static_cast<size_t>(seeds), quiet);
+    run_shuffled(methods, seeds, 1, [&] { progress.step(); });
     return outcomes;
 }
 
@@ -217,7 +219,7 @@ BenchResult run(const BenchOptions& options) {
     const std::vector<NamedRecipe> named = recipes(options.quick);
     BenchResult result;
     for (const BenchKind& bench : benches()) {
-        const Outcomes outcomes = run_all(named, bench, seeds, metals);
+        const Outcomes outcomes = run_all(named, bench, seeds, metals, options.quiet);
         for (const bool psi : {true, false}) {
             result.charts.push_back(chart_of(named, outcomes, bench, psi, seeds, metals));
         }
