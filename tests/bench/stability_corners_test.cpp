@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "device/virtual/ellipsometer_simulation.h"
 #include "fitter/fit.h"
+#include "materials/film_stack.h"
 #include "materials/film_table.h"
 #include "materials/mueller.h"
 #include "materials/packet.h"
