@@ -32,9 +32,8 @@ struct DividedLight {
 template <class T>
 DividedLight<T> divide_at_interface(const T& eta, const T& cos_theta) {
     const ComplexIndex<T> index{eta, T(0.0)};
-    const T u = (T(1.0) - cos_theta) * (T(1.0) + cos_theta);
     // eta cos of the angle behind; 0 in total reflection.
-    const T q = normal_component(index, u).re;
+    const T q = normal_component(index, cos_theta).re;
     // The addend decides 0/0: at grazing incidence on a thinner medium nothing is transmitted.
     const T tiny = T(1e-36);
     const T along_s = T(1.0) / (cos_theta + q + tiny);

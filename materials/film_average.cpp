@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "materials/film_stack.h"
+#include "materials/quadrature.h"
 
 namespace drude {
 
@@ -25,29 +26,12 @@ AverageNodes gaussian_nodes(double phase, int harmonics) {
     return nodes;
 }
 
-// Gauss-Legendre: Newton's method on P_n from its recurrence (Abramowitz & Stegun 1964, 22.7.10,
-// 25.4.29). With n nodes exp(i a x) is averaged to about (e a / 4n)^2n / 2: below 1e-4 here for the
-// highest harmonic, a = harmonics * phase.
+// With n nodes of Gauss-Legendre exp(i a x) is averaged to about (e a / 4n)^2n / 2: below 1e-4 here
+// for the highest harmonic, a = harmonics * phase.
 AverageNodes uniform_nodes(double phase, int harmonics) {
     const int n = static_cast<int>(std::ceil(0.7 * harmonics * std::abs(phase))) + 2;
-    AverageNodes nodes;
-    for (int i = 0; i < n; ++i) {
-        double x = std::cos(pi * (i + 0.75) / (n + 0.5)), slope = 1;
-        for (int step = 0; step < 50; ++step) {
-            double p = 1, before = 0;
-            for (int k = 1; k <= n; ++k) {
-                const double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
-                before = p;
-                p = next;
-            }
-            slope = n * (x * p - before) / (x * x - 1);
-            const double change = p / slope;
-            x -= change;
-            if (std::abs(change) < 1e-15) break;
-        }
-        nodes.x.push_back(x);
-        nodes.weight.push_back(1 / ((1 - x * x) * slope * slope));
-    }
+    AverageNodes nodes = gauss_legendre(n);
+    for (double& weight : nodes.weight) weight /= 2;
     return nodes;
 }
 
@@ -60,10 +44,16 @@ Index held(const OpticalConstants& constants, double centre, double nm) {
                             : centre);
 }
 
+// r_s and r_p at one interface; q and eps of the media above and below it.
+Amplitudes<double> interface_amplitudes(const Complex<double>& q1, const Complex<double>& eps1,
+                                        const Complex<double>& q2, const Complex<double>& eps2) {
+    const Complex<double> p1 = eps2 * q1, p2 = eps1 * q2;
+    return {(q1 - q2) / (q1 + q2), (p1 - p2) / (p1 + p2)};
+}
+
 }  // namespace
 
 int film_harmonics(const Material& material, double wavelength_nm, double cos_theta) {
-    const double u = (1 - cos_theta) * (1 + cos_theta);
     Complex<double> q{cos_theta, 0}, eps{1, 0};
     // A cavity between the strongest of the upper interfaces and the substrate.
     double above = 0, below = 0;
@@ -72,9 +62,9 @@ int film_harmonics(const Material& material, double wavelength_nm, double cos_th
         const Index index =
             (is_substrate ? material.substrate : material.layers[j].constants).at(wavelength_nm);
         const ComplexIndex<double> next{index.n, index.k};
-        const Complex<double> q_next = normal_component(next, u);
+        const Complex<double> q_next = normal_component(next, cos_theta);
         const Complex<double> eps_next = film_detail::squared(next);
-        const Amplitudes<double> r = film_detail::interface_amplitudes(q, eps, q_next, eps_next);
+        const Amplitudes<double> r = interface_amplitudes(q, eps, q_next, eps_next);
         const double strongest = std::sqrt(std::max(norm(r.s), norm(r.p)));
         (is_substrate ? below : above) = is_substrate ? strongest : std::max(above, strongest);
         if (material.layers.size() == 1 && !is_substrate) {

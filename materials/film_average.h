@@ -7,6 +7,7 @@
 
 #include "materials/fresnel.h"
 #include "materials/material.h"
+#include "materials/quadrature.h"
 
 namespace drude {
 
@@ -20,9 +21,7 @@ void add_weighted(const Reflection<T>& r, const T& weight, Reflection<T>* sum) {
 }
 
 // Nodes of a distribution of mean 0 and their weights, which sum to 1.
-struct AverageNodes {
-    std::vector<double> x, weight;
-};
+using AverageNodes = QuadratureRule;
 
 // A Gaussian of standard deviation 1, fine enough for the average of a fringe whose phase scatters
 // by `phase` radians, and of its harmonics up to `harmonics`.

@@ -75,24 +75,34 @@ double interpolation_error(const std::vector<Reflection<float>>& fine) {
     return worst;
 }
 
+struct Resolution {
+    int intervals;
+    double error;  // of interpolation
+};
+
 // The fewest angles that keep the tolerance, judged at wavelengths all over the range.
-int intervals_for(const Material& material, const FilmTable::ForEach& for_each) {
+Resolution resolution_for(const Material& material, const FilmTable::ForEach& for_each) {
     constexpr int looks = 32;
-    for (int intervals = least_intervals;; intervals += intervals / 4) {
-        if (intervals >= most_intervals) return most_intervals;
+    for (int next = least_intervals;; next += next / 4) {
+        const int intervals = std::min(next, most_intervals);
         double errors[looks];
         for_each(looks, [&](int k) {
             const int wavelength = k * (spectrum_integral_size - 1) / (looks - 1);
             errors[k] = interpolation_error(column(material, wavelength, 2 * intervals));
         });
-        if (*std::max_element(errors, errors + looks) <= film_table_tolerance / 2) return intervals;
+        const double worst = *std::max_element(errors, errors + looks);
+        if (worst <= film_table_tolerance / 2 || intervals == most_intervals) {
+            return {intervals, worst};
+        }
     }
 }
 
 }  // namespace
 
-FilmTable::FilmTable(const Material& material, int lanes, const ForEach& for_each)
-    : intervals_(intervals_for(material, for_each)) {
+FilmTable::FilmTable(const Material& material, int lanes, const ForEach& for_each) {
+    const Resolution resolution = resolution_for(material, for_each);
+    intervals_ = resolution.intervals;
+    interpolation_error_ = resolution.error;
     rows_.resize(static_cast<size_t>(intervals_ + 1) * row_size);
     const int phases = spectrum_integral_size / lanes;
     for_each(spectrum_integral_size, [&](int wavelength) {

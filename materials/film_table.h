@@ -19,6 +19,10 @@
 
 namespace drude {
 
+// Films thicker than this are not for a table: in single precision their phases lose the digits
+// that fringes need, and no source is coherent over as much.
+inline constexpr double thickest_film_nm = 1e5;
+
 // What interpolation may add to any of Rs, Rp, C and S.
 inline constexpr double film_table_tolerance = 2e-4;
 
@@ -50,6 +54,10 @@ class FilmTable {
     FilmTable(const Material& material, int lanes, const ForEach& for_each = one_by_one);
 
     bool empty() const { return rows_.empty(); }
+    // The largest error in any of Rs, Rp, C and S of interpolating between the angles, as looked for
+    // at 32 wavelengths. Above film_table_tolerance where even the largest table is too coarse: in a
+    // clear film that light enters under almost the critical angle, which is a resonator there.
+    double interpolation_error() const { return interpolation_error_; }
     // Number of angles less one, and bytes held.
     int intervals() const { return intervals_; }
     size_t bytes() const { return rows_.size() * sizeof(float); }
@@ -99,6 +107,7 @@ class FilmTable {
     }
 
     int intervals_ = 0;
+    double interpolation_error_ = 0;
     std::vector<float> rows_;  // by angle, quantity, phase, lane
 };
 

@@ -35,11 +35,21 @@ struct Reflection {
 };
 
 // q = a + ib = sqrt(N^2 - sin^2), the normal component of the refracted wave vector over that of
-// vacuum. re N^2 is factored, so that n close to k and n close to 1 keep their digits.
+// vacuum, for cos_theta in [0, 1].
+//
+// re q^2 = n^2 - k^2 - sin^2 is summed in the order that cancels least. Where sin^2 is the smaller
+// half, as (n - k)(n + k) - sin^2: a small N keeps its digits. Towards grazing, where sin^2 holds
+// next to nothing of cos, as (n - 1)(n + 1) - (k - cos)(k + cos): an index of 1 gives q = cos and
+// reflects nothing at any angle.
 template <class T>
-Complex<T> normal_component(const ComplexIndex<T>& index, const T& sin2_theta) {
-    return sqrt_first_quadrant(Complex<T>{(index.n - index.k) * (index.n + index.k) - sin2_theta,
-                                          T(2.0) * index.n * index.k});
+Complex<T> normal_component(const ComplexIndex<T>& index, const T& cos_theta) {
+    const T one(1.0);
+    const T& n = index.n;
+    const T& k = index.k;
+    const T re = select(cos_theta * cos_theta < T(0.5),
+                        (n - one) * (n + one) - (k - cos_theta) * (k + cos_theta),
+                        (n - k) * (n + k) - (one - cos_theta) * (one + cos_theta));
+    return sqrt_first_quadrant(Complex<T>{re, T(2.0) * n * k});
 }
 
 // A bare surface of index n + ik (n > 0, k >= 0), cos_theta in [0, 1]. At cos_theta = 0 everything
@@ -47,7 +57,7 @@ Complex<T> normal_component(const ComplexIndex<T>& index, const T& sin2_theta) {
 template <class T>
 Reflection<T> reflect(const ComplexIndex<T>& index, const T& cos_theta) {
     const T u = (T(1.0) - cos_theta) * (T(1.0) + cos_theta);
-    const Complex<T> q = normal_component(index, u);
+    const Complex<T> q = normal_component(index, cos_theta);
     const T b2 = q.im * q.im;
     // The squares |cos -+ q|^2 and |u -+ q cos|^2 as sums, so that rounding makes neither
     // reflectance negative where it nearly vanishes (n close to 1, Brewster's angle).

@@ -49,10 +49,21 @@ void OpticalConstants::check() const {
                            wavelength_nm[i], zero_allowed ? "of at least 0" : "above 0");
             }
         };
+        const auto check_size_of = [&](const std::vector<double>& column, const char* what) {
+            if (column[i] <= largest_table_index) return;
+            user_error("{}: {} = {} at {} nm, expected at most {}", shown, what, column[i],
+                       wavelength_nm[i], largest_table_index);
+        };
         check_value(n, "n", false);
         check_value(k, "k", true);
         check_value(sigma_n, "sigma_n", true);
         check_value(sigma_k, "sigma_k", true);
+        check_size_of(n, "n");
+        check_size_of(k, "k");
+        if (std::hypot(n[i], k[i]) < least_table_index) {
+            user_error("{}: n = {} and k = {} at {} nm, expected n + ik at least {} long", shown,
+                       n[i], k[i], wavelength_nm[i], least_table_index);
+        }
     }
 }
 

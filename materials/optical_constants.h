@@ -14,6 +14,10 @@ namespace drude {
 // error. Never zero, never silent.
 enum class RangePolicy { clamp, error };
 
+// Beyond these nothing is a medium of light, and in single precision powers leave the range. The
+// least is that of the length of n + ik.
+inline constexpr double largest_table_index = 1e6, least_table_index = 1e-6;
+
 struct Index {
     double n = 1, k = 0;
 };
@@ -25,7 +29,7 @@ struct OpticalConstants {
     std::string kind;      // "measured", "calculated" (theory or a formula), "digitised" (from a
                            // figure), "fitted"
     std::vector<double> wavelength_nm;     // strictly ascending
-    std::vector<double> n, k;              // n > 0, k >= 0
+    std::vector<double> n, k;              // n > 0, k >= 0, at most largest_table_index
     std::vector<double> sigma_n, sigma_k;  // standard deviations; empty where not known
     RangePolicy policy = RangePolicy::clamp;
 

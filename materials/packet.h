@@ -1,7 +1,8 @@
 // N floats side by side in SIMD registers, one lane a wavelength.
 //
 // Built on the vector extension that g++ and clang share: the same source runs on any x86-64 and
-// becomes AVX or AVX-512 where the build allows it. N is 4 or a multiple of 8.
+// becomes AVX or AVX-512 where the build allows it. N is 4 or a multiple of 8, or 1: a plain float
+// with a packet's interface.
 #pragma once
 
 #include <cmath>
@@ -30,7 +31,7 @@ struct PacketMask {
 
 template <int N>
 struct Packet {
-    static_assert(N == 4 || (N % 8 == 0 && N > 0), "a packet fills whole registers");
+    static_assert(N == 1 || N == 4 || (N % 8 == 0 && N > 0), "a packet fills whole registers");
     static constexpr int size = N;
     static constexpr int registers = N / packet_lanes<N>;
     using Vector [[gnu::vector_size(4 * packet_lanes<N>)]] = float;
@@ -116,6 +117,9 @@ Packet<N> abs(const Packet<N>& a) {
     return max(a, -a);
 }
 
+inline Packet<1> sqrt(const Packet<1>& a) {
+    return Packet<1>(std::sqrt(a[0]));
+}
 #if defined(__SSE2__)
 inline Packet<4> sqrt(const Packet<4>& a) {
     __m128 lanes;
@@ -156,27 +160,45 @@ Packet<N> round_small(const Packet<N>& a) {
     return (a + shift) - shift;
 }
 
-// exp(a) within 2e-7 relative for a in [-87, 88]; below that 0 to within 1e-38, above it clamped.
+// exp(a) = scale (1 + less_one), scale a power of 2 and |less_one| < 0.42.
 template <int N>
-Packet<N> exp(const Packet<N>& a) {
+struct SplitExponential {
+    Packet<N> scale, less_one;
+};
+
+// For a in [-87, 88]; what is outside is moved there.
+template <int N>
+SplitExponential<N> split_exponential(const Packet<N>& a) {
     const Packet<N> x = min(max(a, Packet<N>(-87.0f)), Packet<N>(88.0f));
     const Packet<N> n = round_small(x * Packet<N>(1.44269504f));
     // ln 2 in two parts (Cody & Waite 1980), so that the remainder keeps its digits.
     const Packet<N> r = (x - n * Packet<N>(0.693359375f)) + n * Packet<N>(2.12194440e-4f);
     Packet<N> p(1.0f / 5040);
-    for (const float c : {1.0f / 720, 1.0f / 120, 1.0f / 24, 1.0f / 6, 0.5f, 1.0f, 1.0f}) {
+    for (const float c : {1.0f / 720, 1.0f / 120, 1.0f / 24, 1.0f / 6, 0.5f, 1.0f}) {
         p = p * r + Packet<N>(c);
     }
-    Packet<N> result;
+    SplitExponential<N> result;
+    result.less_one = p * r;
     for (int i = 0; i < Packet<N>::registers; ++i) {
         using IntVector = typename Packet<N>::IntVector;
-        using Vector = typename Packet<N>::Vector;
         const IntVector bits = (__builtin_convertvector(n.v[i], IntVector) + 127) << 23;
-        Vector scale;
-        std::memcpy(&scale, &bits, sizeof scale);
-        result.v[i] = p.v[i] * scale;
+        std::memcpy(&result.scale.v[i], &bits, sizeof bits);
     }
     return result;
+}
+
+// exp(a) within 2e-7 relative for a in [-87, 88]; below that 0 to within 1e-38, above it clamped.
+template <int N>
+Packet<N> exp(const Packet<N>& a) {
+    const SplitExponential<N> e = split_exponential(a);
+    return (e.less_one + Packet<N>(1.0f)) * e.scale;
+}
+
+// exp(a) - 1 within 3e-7 relative for a up to 88, above it clamped.
+template <int N>
+Packet<N> expm1(const Packet<N>& a) {
+    const SplitExponential<N> e = split_exponential(a);
+    return e.less_one * e.scale + (e.scale - Packet<N>(1.0f));
 }
 
 // sin and cos of 2 pi `turns` within 2e-7 for |turns| < 2^20.

@@ -1,15 +1,11 @@
 #include "bench/charts/bench_items.h"
 
-#include "bench/charts/defaults_item.h"
-
 namespace drude {
 
 const std::vector<BenchItem>& bench_items() {
-    static const std::vector<BenchItem> all = {
-        {"defaults", "No more model than a scene needs",
-         "what is chosen by itself against the richest of everything, on the scenes of scenes/",
-         run_defaults},
-    };
+    static const std::vector<BenchItem> all = {transport_item(), wavelength_item(), sampling_item(),
+                                               fresnel_item(),   microfacet_item(), fit_item(),
+                                               capture_item(),   defaults_item()};
     return all;
 }
 

@@ -4,4 +4,15 @@
 
 #include "bench/charts/bench_item.h"
 
-namespace drude {}  // namespace drude
+namespace drude {
+
+BenchItem transport_item();
+BenchItem wavelength_item();
+BenchItem sampling_item();
+BenchItem fresnel_item();
+BenchItem microfacet_item();
+BenchItem fit_item();
+BenchItem capture_item();
+BenchItem defaults_item();
+
+}  // namespace drude

@@ -1,15 +1,20 @@
 """The fits of bench/fit_speed.cpp beside pyElli and lmfit: same data, same models, same weights.
 
     python3 -m venv VENV && VENV/bin/pip install pyElli packaging lmfit
-    VENV/bin/python bench/peers/fit_peers.py BUILD_FOLDER [ROUNDS]
+    VENV/bin/python bench/peers/fit_peers.py BUILD_FOLDER [ROUNDS] [--csv FILE]
 
 Every round times each fit once, one after the other, in processes that have read everything before;
 drude's own time is the one that fit_speed takes inside. All run on one thread and are timed by the
 processor's clock, so that what else the machine does is left out. Printed are the medians over the rounds, as
 Markdown, with how far the answers are apart. Where pyElli or lmfit is missing the script says so and
 ends with status 0.
+
+--csv writes points for `drude bench --with FILE`: into the chart "fit-time" the fits of n and k of
+the five metals, on the same measurements as drude's own points there (BUILD_FOLDER/drude makes
+them), and "peers-film", the film's thickness.
 """
 
+import argparse
 import json
 import os
 import platform
@@ -33,6 +38,8 @@ except ImportError as missing:
 
 from importlib.metadata import version
 
+from chart_rows import row, write_rows
+
 
 def read_measurement(path):
     """Rows of the project's CSV by wavelength: {nm: array of (angle, psi, delta, sigmas)}."""
@@ -53,7 +60,7 @@ def residuals(psi, delta, rows):
 
 def start_of(rows):
     """n and k in closed form at 70 degrees: the start of both programs' bulk fits."""
-    angle, psi, delta = rows[3, :3]
+    angle, psi, delta = rows[np.argmin(np.abs(rows[:, 0] - 70.0)), :3]
     theta = np.radians(angle)
     r = np.tan(np.radians(psi)) * np.exp(-1j * np.radians(delta))
     epsilon = np.sin(theta) ** 2 * (1 + np.tan(theta) ** 2 * ((1 - r) / (1 + r)) ** 2)
@@ -167,6 +174,70 @@ class Film:
         return [v.value for v in values] + [v.stderr for v in values]
 
 
+# The metals of the chart "fit-time" (bench/charts/five_metals.h).
+METALS = ["Cu-McPeak", "Ag-McPeak", "Au-McPeak", "Al-McPeak", "Zn-Werner-DFT"]
+here = os.path.dirname(os.path.abspath(__file__))
+GRID = np.arange(380, 780)  # where the chart compares n + ik
+
+
+def true_index(metal):
+    path = os.path.join(here, os.pardir, os.pardir, "materials", "tables", metal + ".csv")
+    with open(path, encoding="utf-8") as file:
+        lines = [line for line in file if not line.startswith("#")]
+    columns = lines[0].strip().split(",")
+    table = np.array([[float(x) for x in line.split(",")] for line in lines[1:]])
+    n, k = (table[:, columns.index(name)] for name in ("n", "k"))
+    nm = table[:, 0]
+    return np.interp(GRID, nm, n) + 1j * np.interp(GRID, nm, k)
+
+
+def metal_points(program, folder, seeds):
+    """Rows of the chart "fit-time"."""
+    points = []
+    models = {"lmfit + pyElli": (bulk_elli, (5, 11, 21)),
+              "lmfit + plain numpy": (bulk_numpy, (5, 11, 21, 41, 81))}
+    for name, (model, counts) in models.items():
+        for count in counts:
+            seconds, errors = [], []
+            for seed in range(1, seeds + 1):
+                sum_of_seconds, sum_of_errors = 0.0, 0.0
+                for metal in METALS:
+                    path = os.path.join(folder, "metal-of-chart.csv")
+                    subprocess.run(
+                        [program, "simulate", metal, "--angles", "65,70,75", "--wavelengths",
+                         f"380:780:{400 // (count - 1)}", "--noise", "0.05,0.1", "--seed",
+                         str(seed), "-o", path],
+                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                    data = read_measurement(path)
+                    begin = time.process_time()
+                    found = bulk(model)(data)
+                    sum_of_seconds += time.process_time() - begin
+                    nm = np.array(sorted(data))
+                    index = np.interp(GRID, nm, found[:, 0]) + 1j * np.interp(GRID, nm, found[:, 1])
+                    truth = true_index(metal)
+                    sum_of_errors += np.sqrt(np.mean(np.abs((index - truth) / truth) ** 2))
+                seconds.append(sum_of_seconds / len(METALS))
+                errors.append(sum_of_errors / len(METALS))
+            points.append(row("fit-time", name, f"{count} wavelengths", seconds, errors,
+                              f"{len(METALS)} metals, {seeds} seeds"))
+    return points
+
+
+def film_points(first, own, peers, seconds, truth_nm):
+    """Rows of "peers-film": error of the thickness over it."""
+    def point(method, setting, cost, thickness):
+        return row("peers-film", method, setting, [cost], [abs(thickness / truth_nm - 1)],
+                   f"{thickness:.3f} nm of {truth_nm:g}")
+
+    points = [point("drude", "from a start", own["film_local"],
+                    first["film_local"]["thickness_nm"]),
+              point("drude", "global search", own["film_global"],
+                    first["film_global"]["thickness_nm"])]
+    for name, method in (("film pyElli", "lmfit + pyElli"), ("film numpy", "lmfit + plain numpy")):
+        points.append(point(method, "from a start", seconds[name], peers[name][0]))
+    return points
+
+
 def processor():
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         for line in file:
@@ -176,11 +247,14 @@ def processor():
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
-        print("expected fit_peers.py BUILD_FOLDER [ROUNDS]", file=sys.stderr)
-        return 2
-    program = os.path.join(sys.argv[1], "fit_speed")
-    rounds = int(sys.argv[2]) if len(sys.argv) == 3 else 5
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build_folder")
+    parser.add_argument("rounds", nargs="?", type=int, default=5)
+    parser.add_argument("--csv", help="points for drude bench --with")
+    parser.add_argument("--seeds", type=int, default=3, help="of the measurements in --csv")
+    args = parser.parse_args()
+    program = os.path.join(args.build_folder, "fit_speed")
+    rounds = args.rounds
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([program, "write", folder], check=True)
         metal = read_measurement(os.path.join(folder, "metal.csv"))
@@ -206,8 +280,10 @@ def main():
                 begin = time.process_time()
                 run()
                 seconds[name].append(time.process_time() - begin)
+        points = (metal_points(os.path.join(args.build_folder, "drude"), folder, args.seeds)
+                  if args.csv else [])
 
-    points = len(metal)
+    wavelengths = len(metal)
     own = {name: statistics.median(values) for name, values in own.items()}
     seconds = {name: statistics.median(values) for name, values in seconds.items()}
     print(f"{processor()}, {os.cpu_count()} processors, one thread used; processor time, medians of {rounds} "
@@ -217,16 +293,16 @@ def main():
     print("| fit | drude, ms | lmfit + pyElli, ms | ratio | lmfit + plain numpy, ms | ratio |")
     print("|---|---|---|---|---|---|")
 
-    def row(name, mine, slow, plain, per):
+    def table_row(name, mine, slow, plain, per):
         print(f"| {name} | {1e3 * mine / per:.3f} | {1e3 * slow / per:.1f} | {slow / mine:.0f} | "
               f"{1e3 * plain / per:.2f} | {plain / mine:.0f} |")
 
-    row("n, k of one wavelength, 6 angles", own["bulk"], seconds["bulk pyElli"],
-        seconds["bulk numpy"], points)
-    row(f"n, k and covariance of all {points} wavelengths", own["bulk"], seconds["bulk pyElli"],
-        seconds["bulk numpy"], 1)
-    row("film of 3 um, from the same start", own["film_local"], seconds["film pyElli"],
-        seconds["film numpy"], 1)
+    table_row("n, k of one wavelength, 6 angles", own["bulk"], seconds["bulk pyElli"],
+              seconds["bulk numpy"], wavelengths)
+    table_row(f"n, k and covariance of all {wavelengths} wavelengths", own["bulk"],
+              seconds["bulk pyElli"], seconds["bulk numpy"], 1)
+    table_row("film of 3 um, from the same start", own["film_local"], seconds["film pyElli"],
+              seconds["film numpy"], 1)
     print(f"| film, global search and refinement | {1e3 * own['film_global']:.1f} | | | | |\n")
 
     mine = first["bulk"]
@@ -248,9 +324,11 @@ def main():
     print(f"- thickness of the global search {first['film_global']['thickness_nm']:.3f} nm.")
     targets = {
         "200x a wavelength against lmfit + pyElli": seconds["bulk pyElli"] / own["bulk"] >= 200,
-        f"{points} wavelengths within 10 ms": own["bulk"] < 0.010,
+        f"{wavelengths} wavelengths within 10 ms": own["bulk"] < 0.010,
         "50x a film against lmfit + pyElli": seconds["film pyElli"] / own["film_local"] >= 50,
     }
+    if args.csv:
+        write_rows(args.csv, points + film_points(first, own, answers, seconds, 3000.0))
     for target, met in targets.items():
         print(f"- {target}: {'met' if met else 'NOT met'}.")
     return 0 if all(targets.values()) else 1

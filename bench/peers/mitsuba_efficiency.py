@@ -1,7 +1,7 @@
 """1 / (time x mean squared error) of drude beside Mitsuba 3: a copper half-sphere under a picture.
 
     VENV/bin/python bench/peers/mitsuba_efficiency.py DRUDE ENVIRONMENT [--alpha A] [--rounds N]
-        [--size PIXELS] [--spp N] [--variant V]... [--sampler S]
+        [--size PIXELS] [--spp N] [--variant V]... [--sampler S] [--csv FILE]
 
 ENVIRONMENT is a lat-long EXR; both programs get it in grey (its luminance), turned the same way.
 The half-sphere is one mesh of triangles with normals, n and k the tables of peer_scenes.py, the
@@ -15,6 +15,9 @@ mean of squares over pixels and R, G, B, over the square of the reference's mean
 of the rendering loop alone, by the wall: drude's `render_seconds`, and Mitsuba's mi.render of a
 scene that is loaded and, in the llvm variant, compiled already. Medians over the rounds; above 1 is
 better for drude. Ends with status 0 where mitsuba is missing.
+
+--csv writes the points of two charts for `drude bench --with FILE`, error (root of the mean square)
+of S0 and of S1..S3 against seconds, with a sixteenth, a quarter and all of --spp samples a pixel.
 """
 
 import argparse
@@ -33,6 +36,7 @@ except ImportError as missing:
     print(f"skipped: {missing}; see the head of mitsuba_agreement.py")
     sys.exit(0)
 
+from chart_rows import row, write_rows
 from peer_scenes import ETA_TABLE, K_TABLE, half_sphere, mitsuba_scene, write_pbrt
 
 
@@ -122,6 +126,27 @@ def errors(picture, truth):
     return square[0].mean(), square[1:].sum(0).mean()
 
 
+def measure_points(counts, args, *programs):
+    """Rows of each program's curve, all rendered in turn."""
+    surface = "mirror" if args.alpha == 0 else f"ggx-{args.alpha:g}".replace(".", "-")
+    curves = [[] for _ in programs]
+    for spp in counts:
+        figures = [[] for _ in programs]
+        for k in range(args.rounds + 1):
+            for mine, (_, renderer, known) in zip(figures, programs):
+                seconds, picture = renderer.render(spp, 1 + k)
+                if k > 0:  # the first compiles for this number of samples
+                    mine.append((seconds, *errors(picture, known)))
+        for curve, mine, (name, _, _) in zip(curves, figures, programs):
+            method = name if name == "drude" else f"Mitsuba {name}, {args.sampler}"
+            for i, part in ((1, "s0"), (2, "s123")):
+                curve.append(row(
+                    f"peers-{surface}-{part}", method, f"{spp} spp", [f[0] for f in mine],
+                    [f[i] ** 0.5 for f in mine],
+                    f"{args.size} x {args.size} pixels, all processors, by the wall"))
+    return curves
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("drude")
@@ -133,10 +158,12 @@ def main():
     parser.add_argument("--reference-passes", type=int, default=64, help="of --spp samples each")
     parser.add_argument("--variant", action="append")
     parser.add_argument("--sampler", default="independent", help="of Mitsuba (its default)")
+    parser.add_argument("--csv", help="points for drude bench --with")
     args = parser.parse_args()
     variants = args.variant or ["llvm_ad_spectral_polarized", "scalar_spectral_polarized"]
 
-    rows = {}
+    counts = sorted({max(1, args.spp // 16), max(1, args.spp // 4), args.spp})
+    rows, points, own = {}, [], []
     with tempfile.TemporaryDirectory() as folder:
         mi.set_variant("llvm_ad_spectral_polarized")
         grey_picture = os.path.join(folder, "grey.exr")
@@ -166,6 +193,11 @@ def main():
                     seconds, picture = renderer.render(args.spp, 1 + k)
                     figures[name].append((seconds, *errors(picture, known)))
             rows[variant] = figures
+            if args.csv:
+                own_points, peer_points = measure_points(
+                    counts, args, ("drude", drude, truth), (variant, mitsuba, peer_truth))
+                own = own or own_points  # those beside the first variant
+                points += peer_points
     print("| against | alpha | drude, s | its MSE of S0, S1..3 | Mitsuba, s | its MSE of S0, S1..3 "
           "| efficiency S0 | S1..3 |")
     print("|---|---|---|---|---|---|---|---|")
@@ -183,6 +215,8 @@ def main():
               f"| {median(ours, 1):.2e}, {median(ours, 2):.2e} | {median(theirs, 0):.2f} "
               f"| {median(theirs, 1):.2e}, {median(theirs, 2):.2e} "
               f"| {gain[0]:.1f} | {gain[1]:.1f} |")
+    if args.csv:
+        write_rows(args.csv, own + points)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "materials/quadrature.h"
 #include "materials/surface.h"
 
 namespace drude {
@@ -19,33 +20,6 @@ struct ConeNode {
     Rotation<double> in, out;
 };
 
-struct GaussNodes {
-    std::vector<double> x, weight;  // on [0, 1]
-};
-
-// Gauss-Legendre by Newton's method on the recurrence (Abramowitz & Stegun 1964, 25.4.29).
-GaussNodes gauss_legendre(int count) {
-    GaussNodes nodes;
-    for (int i = 0; i < count; ++i) {
-        double x = std::cos(pi * (i + 0.75) / (count + 0.5)), slope = 1;
-        for (int step = 0; step < 50; ++step) {
-            double p = 1, before = 0;
-            for (int n = 0; n < count; ++n) {
-                const double next = ((2 * n + 1) * x * p - n * before) / (n + 1);
-                before = p;
-                p = next;
-            }
-            slope = count * (x * p - before) / (x * x - 1);
-            const double change = p / slope;
-            x -= change;
-            if (std::abs(change) < 1e-15) break;
-        }
-        nodes.x.push_back((1 - x) / 2);
-        nodes.weight.push_back(1 / ((1 - x * x) * slope * slope));
-    }
-    return nodes;
-}
-
 // Directions over the cone: Gauss-Legendre in the cosine, equal steps in azimuth, as many as the
 // lobe's width asks for.
 std::vector<ConeNode> cone_nodes(const Microfacets<double>& microfacets, double beta,
@@ -60,11 +34,11 @@ std::vector<ConeNode> cone_nodes(const Microfacets<double>& microfacets, double 
     const int rings =
         std::clamp(static_cast<int>(std::ceil(6 + 6 * half_angle / lobe_width)), 6, 120);
     const int spokes = 2 * rings;
-    const GaussNodes gauss = gauss_legendre(rings);
+    const QuadratureRule gauss = gauss_legendre(rings);
     const double depth = 2 * std::pow(std::sin(half_angle / 2), 2);  // 1 - cos, without cancelling
     std::vector<ConeNode> nodes;
     for (int ring = 0; ring < rings; ++ring) {
-        const double fall = depth * gauss.x[ring];
+        const double fall = 0.5 * depth * (1 - gauss.x[ring]);
         const double sine = std::sqrt(fall * (2 - fall));
         for (int spoke = 0; spoke < spokes; ++spoke) {
             const double phi = 2 * pi * (spoke + 0.5) / spokes;
@@ -74,7 +48,8 @@ std::vector<ConeNode> cone_nodes(const Microfacets<double>& microfacets, double 
             if (!(e.value > 0)) continue;
             ConeNode node;
             // evaluate() has BRDF x cos(theta_i); the flux of a beam wants cos(theta_o).
-            node.weight = e.value * o.z / i.z * depth * gauss.weight[ring] * (2 * pi / spokes);
+            node.weight =
+                e.value * o.z / i.z * 0.5 * depth * gauss.weight[ring] * (2 * pi / spokes);
             node.cos_facet = std::min(glm::dot(i, e.m), 1.0);
             const Direction facet_s = s_axis(-i, e.m);
             node.in = rotation_between(-i, s, facet_s, 1.0);

@@ -2,13 +2,11 @@
 // only a command that meets a PNG, HDR, JPEG, ... pays for it.
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "image/oiio/oiio_module.h"
 
 namespace drude {
+
+inline constexpr const char* oiio_module_file = "drude-oiio.so";
 
 struct OiioModule {
     decltype(&drude_oiio_read) read = nullptr;
@@ -17,9 +15,6 @@ struct OiioModule {
     decltype(&drude_oiio_texture) texture = nullptr;
     decltype(&drude_oiio_texels) texels = nullptr;
 };
-
-// Where the module is looked for; see module_candidates().
-std::vector<std::string> oiio_module_candidates();
 
 // The loaded module; from any thread. Throws Error (outside) that names the places searched and
 // the Debian package of OpenImageIO where it is not there or does not load; a later call tries

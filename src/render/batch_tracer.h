@@ -32,6 +32,8 @@ class BatchTracer {
     // Fills rgb (and spectral, where the tracer carries all bins); adds to `statistics`.
     virtual void trace(const BatchRequest& request, BatchResult* result,
                        PathStatistics* statistics) const = 0;
+    // What its tables cannot hold as exactly as they should; for people.
+    virtual std::vector<std::string> warnings() const = 0;
 };
 
 struct TracerSetup {
@@ -44,13 +46,17 @@ struct TracerSetup {
     const PixelFilter& filter;
     uint64_t seed;
     int max_depth;
-    int threads = 0;  // for tables that take a while
+    int threads = 0;                 // for tables that take a while
+    SamplingStrategy strategy = {};  // of `lights` too
+    // What the film sees with; it counts as CIE XYZ.
+    const ColourMatching* observer = &cie1931();
     SurfaceModel surfaces = {};
     // See BounceChoice::clear_after.
     int clear_after = std::numeric_limits<int>::max();
 };
 
-// `wavelengths` is 4, 8, 16 or spectral_bins.
+// `wavelengths` is 4, 8, 16 or spectral_bins. Error (user) for a scene that the strategy cannot
+// draw.
 std::unique_ptr<BatchTracer> make_batch_tracer(Transport transport, int wavelengths,
                                                const TracerSetup& setup);
 

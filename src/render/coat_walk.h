@@ -57,7 +57,7 @@ void Path<transport, N>::add_light_through_coat(const Vertex& v, const CoatTable
     beam.scatter(v.to_world(out), -v.to_world(in), v.to_world(e.m),
                  base.optics(out, in, e.m, false), std::exp(-coat.thickness / in.z), h_);
     beam.scatter(-v.to_world(in), -l.d, v.hit.ns, coat_detail::packets<N>(t), 1, h_);
-    add_light(v, l, beam, (l.is_delta ? 1 : mis(l.pdf, pdf)) * e.value * squeeze / l.pdf);
+    add_light(v, l, beam, light_share(l, pdf) * e.value * squeeze / l.pdf);
 }
 
 // Light samples that a rough surface refracts into the coat; the path has come up to it along `up`.
@@ -75,7 +75,7 @@ void Path<transport, N>::add_light_through_rough_coat(const Vertex& v, const Coa
     Beam<transport, N> beam = beam_;
     beam.scatter(-v.to_world(up), -l.d, v.to_world(coat_detail::mirrored(e.m)),
                  from_below.optics(out, in, e.m, true), 1 / (coat.eta * coat.eta), h_);
-    add_light(v, l, beam, (l.is_delta ? 1 : mis(l.pdf, e.pdf)) * e.value / l.pdf);
+    add_light(v, l, beam, light_share(l, e.pdf) * e.value / l.pdf);
 }
 
 template <Transport transport, int N>
@@ -95,7 +95,7 @@ bool Path<transport, N>::walk_in_coat(const Vertex& v, const CoatTables<N>& coat
             const LobeValue e = from_above.evaluate(out, in);
             if (e.value > 0 && !e.transmits && reaches(v, l, false)) {
                 add_light(v, l, from_above.optics(out, in, e.m, false), e.m,
-                          (l.is_delta ? 1 : mis(l.pdf, e.pdf)) * e.value / l.pdf);
+                          light_share(l, e.pdf) * e.value / l.pdf);
             }
         }
     }

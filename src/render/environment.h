@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "image/image.h"
 #include "render/cumulative.h"
 
@@ -23,8 +24,9 @@ class Environment {
     // Channels R, G, B (or Y) of `image`, times `scale`. Negative and non-finite texels become 0
     // and are counted. Throws Error (user), naming `where`, unless the picture is 2:1 or square,
     // has colour and is not black all over.
+    // `compensated`: see sample().
     Environment(const Image& image, double scale, const glm::dmat4& world_from_light,
-                const std::string& where);
+                const std::string& where, bool compensated = true);
 
     // Linear RGB radiance that arrives from world direction d (unit, away from the viewer).
     glm::vec3 radiance(const glm::vec3& d) const;
@@ -41,7 +43,8 @@ class Environment {
         float pdf = 0;       // per solid angle
     };
     // Sampled in proportion to luminance less its mean (MIS compensation: Karlik et al. 2019, ACM
-    // TOG 38(6)): what lobe sampling finds by itself is left to it. Uniform numbers in [0, 1).
+    // TOG 38(6)): what lobe sampling finds by itself is left to it. Without compensation in
+    // proportion to luminance. Uniform numbers in [0, 1).
     Sample sample(const glm::vec2& u) const;
     float pdf(const glm::vec3& d) const { return light(d).pdf; }
 
@@ -51,12 +54,16 @@ class Environment {
   private:
     // `l` in light space, of any length.
     size_t texel(const glm::vec3& l) const;
+    size_t texel_of_group(size_t y, size_t first, float u, float* inside) const;
 
     bool lat_long_;
     int width_, height_;
     glm::mat3 light_from_world_, world_from_light_;  // of determinant +-1
-    std::vector<glm::vec4> texels_;  // radiance, and the density over the unit square
-    CumulativeRows rows_, columns_;
+    HugePageVector<glm::vec4> texels_;  // radiance, and the density over the unit square
+    // Texels are chosen by row, by group of neighbours in it, and within the group by the texels
+    // themselves: they fill the cache line that is read for the radiance anyway.
+    static constexpr int group_size = 4;
+    CumulativeRows rows_, groups_;
     std::vector<float> edge_;  // lat-long: cosines between the rows
     int repaired_ = 0;
     double mean_luminance_ = 0;

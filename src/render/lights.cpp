@@ -72,7 +72,8 @@ void Lights::make_choice() {
     }
 }
 
-Lights::Lights(const Scene& scene, const Geometry& geometry, bool constant_skies)
+Lights::Lights(const Scene& scene, const Geometry& geometry, const SamplingStrategy& strategy,
+               bool constant_skies)
     : scene_(scene),
       geometry_(geometry),
       first_of_shape_(scene.shapes.size(), -1),
@@ -91,7 +92,7 @@ Lights::Lights(const Scene& scene, const Geometry& geometry, bool constant_skies
         } else {
             infinite.environment = std::make_unique<Environment>(
                 light.picture ? *light.picture : read_image(light.image), light.scale,
-                light.world_from_light, light.image);
+                light.world_from_light, light.image, strategy.compensated_environments);
             luminance = infinite.environment->mean_luminance();
             if (const int repaired = infinite.environment->repaired_texels(); repaired > 0) {
                 warnings_.push_back(

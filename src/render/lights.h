@@ -10,6 +10,7 @@
 #include "render/environment.h"
 #include "render/geometry.h"
 #include "render/light_polarisation.h"
+#include "render/sampling_strategy.h"
 #include "scene/scene.h"
 
 namespace drude {
@@ -20,9 +21,11 @@ namespace drude {
 // little, and because a distant light that is never picked would be lost.
 class Lights {
   public:
-    // Reads the environments' pictures. `scene` and `geometry` must outlive it. `constant_skies`:
-    // constant infinite lights are picked too (light_choice.h).
-    Lights(const Scene& scene, const Geometry& geometry, bool constant_skies = true);
+    // Reads the environments' pictures, and samples them as the strategy says. `constant_skies`:
+    // constant infinite lights are picked too (light_choice.h). `scene` and `geometry` must
+    // outlive it.
+    Lights(const Scene& scene, const Geometry& geometry, const SamplingStrategy& strategy = {},
+           bool constant_skies = true);
 
     enum class Kind { environment, constant, distant, point, area };
 

@@ -1,15 +1,11 @@
 // Finds and loads drude-mpi.so where an MPI launcher started this process: linking MPI would cost
 // every start of the program.
-#include <dlfcn.h>
-#include <fmt/ranges.h>
-
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "base/error.h"
-#include "base/module_path.h"
+#include "base/module.h"
 #include "base/numbers.h"
 #include "render/film_ranks.h"
 #include "render/mpi/mpi_module.h"
@@ -28,47 +24,28 @@ struct Module {
     decltype(&drude_mpi_finish) finish = nullptr;
 };
 
-template <class Function>
-bool resolve(void* library, const char* name, Function& function) {
-    // POSIX lets dlsym's pointer be a function's; C++ leaves it to the implementation.
-    function = reinterpret_cast<Function>(dlsym(library, name));
-    return function != nullptr;
-}
-
 Module load(int processes) {
-    const std::vector<std::string> candidates = module_candidates(file_name);
-    for (const std::string& path : candidates) {
-        if (!std::filesystem::exists(path)) continue;
-        // Global: what OpenMPI itself loads looks for its symbols there.
-        void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
-        if (!library) {
-            const char* reason = dlerror();
-            outside_error(
-                "{}: does not load: {}; install OpenMPI (Debian: libopenmpi3) or build again "
-                "against the one that is installed",
-                path, reason ? reason : "no reason given");
-        }
-        Module module;
-        decltype(&drude_mpi_version) version = nullptr;
-        if (!resolve(library, "drude_mpi_version", version) || version() != drude_mpi_interface ||
-            !resolve(library, "drude_mpi_start", module.start) ||
-            !resolve(library, "drude_mpi_any", module.any) ||
-            !resolve(library, "drude_mpi_send", module.send) ||
-            !resolve(library, "drude_mpi_receive", module.receive) ||
-            !resolve(library, "drude_mpi_finish", module.finish)) {
-            outside_error("{}: belongs to another version of drude; install both together", path);
-        }
-        return module;
+    // Visible: what OpenMPI itself loads looks for its symbols there.
+    const LoadedModule loaded = load_module(file_name, true, "OpenMPI (Debian: libopenmpi3)");
+    if (!loaded.library) {
+        outside_error(
+            "an MPI launcher started {} processes, but {} is missing, through which they render "
+            "together: looked in {}; install OpenMPI (Debian: libopenmpi-dev) and build again, set "
+            "DRUDE_MODULE_PATH to the module's folder, or start one process (or shards, --shard "
+            "i/n)",
+            processes, file_name, module_folders(file_name));
     }
-    std::vector<std::string> folders;
-    for (const std::string& path : candidates) {
-        folders.push_back(std::filesystem::path(path).parent_path().string());
+    Module module;
+    decltype(&drude_mpi_version) version = nullptr;
+    if (!loaded.resolve("drude_mpi_version", version) || version() != drude_mpi_interface ||
+        !loaded.resolve("drude_mpi_start", module.start) ||
+        !loaded.resolve("drude_mpi_any", module.any) ||
+        !loaded.resolve("drude_mpi_send", module.send) ||
+        !loaded.resolve("drude_mpi_receive", module.receive) ||
+        !loaded.resolve("drude_mpi_finish", module.finish)) {
+        loaded.refuse();
     }
-    outside_error(
-        "an MPI launcher started {} processes, but {} is missing, through which they render "
-        "together: looked in {}; install OpenMPI (Debian: libopenmpi-dev) and build again, set "
-        "DRUDE_MODULE_PATH to the module's folder, or start one process (or shards, --shard i/n)",
-        processes, file_name, fmt::join(folders, ", "));
+    return module;
 }
 
 // How many processes a launcher says that it started; 1 where there is no launcher.

@@ -31,7 +31,8 @@ struct PathSetup {
     const SpectralTables<N>& tables;
     float handedness;
     int max_depth;
-    int clear_after;                 // rays after so many reflections meet nothing
+    int clear_after;  // rays after so many reflections meet nothing
+    SamplingStrategy strategy;
     Throughput<transport, N> first;  // the camera's analyser, or nothing
 };
 
@@ -168,7 +169,7 @@ class Path {
                 const glm::vec3 in = v.to_local(l.d);
                 const LobeValue e = surface.evaluate(out, in);
                 if (e.value > 0 && reaches(v, l, e.transmits)) {
-                    const float weight = (l.is_delta ? 1 : mis(l.pdf, e.pdf)) * e.value / l.pdf;
+                    const float weight = light_share(l, e.pdf) * e.value / l.pdf;
                     add_light(v, l, surface.optics(out, in, e.m, e.transmits), e.m, weight);
                 }
             }
@@ -221,8 +222,11 @@ class Path {
     template <class Body>
     bool with_lobe(const Vertex& v, const ConductorTables<N>& metal, const Microfacets<float>& lobe,
                    const Body& body) const {
-        if (!metal.fixed_reflectance) return body(ConductorScattering<N>(metal, lobe, phase_));
-        return body(ConductorScattering<N>(metal, lobe, phase_,
+        const bool visible = setup_.strategy.visible_normals;
+        if (!metal.fixed_reflectance) {
+            return body(ConductorScattering<N>(metal, lobe, phase_, visible));
+        }
+        return body(ConductorScattering<N>(metal, lobe, phase_, visible,
                                            reflectance_at(v, *metal.fixed_reflectance)));
     }
 
@@ -232,7 +236,8 @@ class Path {
         o_ = leave(hit, d);
         d_ = d;
         from_ = o_;
-        lobe_pdf_ = lobe_pdf;
+        const bool alone = setup_.strategy.directions == SamplingStrategy::Directions::lobe;
+        lobe_pdf_ = alone ? 0 : lobe_pdf;
     }
 
     void pass_elements(const glm::vec3& o, const glm::vec3& d, float distance,
@@ -291,7 +296,7 @@ class Path {
                 light = tables_.infinite_radiance[i][phase_];
                 pdf = lights_.infinite_pdf(i, d_);
             }
-            const float weight = lobe_pdf_ > 0 ? mis(lobe_pdf_, pdf) : 1;
+            const float weight = lobe_share(pdf);
             add(seen(beam_, d_, light,
                      polarised_ ? lights_.infinite_polarisation(i, d_) : ArrivingPolarisation{}),
                 light, weight);
@@ -302,8 +307,7 @@ class Path {
         const AreaLight& light = scene_.area_lights[shape.area_light];
         if (!light.two_sided && !(glm::dot(hit.ng, d_) < 0)) return;
         const float distance = glm::length(hit.p - from_);
-        const float weight =
-            lobe_pdf_ > 0 ? mis(lobe_pdf_, lights_.area_pdf(hit, d_, distance)) : 1;
+        const float weight = lobe_pdf_ > 0 ? lobe_share(lights_.area_pdf(hit, d_, distance)) : 1;
         const Packet<N> radiance = tables_.area_radiance[shape.area_light][phase_];
         add(seen(beam_, d_, radiance,
                  polarised_ ? lights_.area_polarisation(hit, d_) : ArrivingPolarisation{}),
@@ -358,6 +362,7 @@ class Path {
     }
 
     Lights::Sample light_sample(const Hit& hit) {
+        if (setup_.strategy.directions == SamplingStrategy::Directions::lobe) return {};
         const float choice = sampler_.next_1d();
         return lights_.sample(hit.p, choice, sampler_.next_2d());
     }
@@ -389,6 +394,20 @@ class Path {
         const glm::vec3 to = l.target - from;
         const float distance = glm::length(to);
         return distance > 0 && !setup_.geometry.occluded(from, to / distance, distance);
+    }
+
+    // What counts of a light sample, whose direction the lobe chooses with density `lobe_pdf`, and
+    // of light that the lobe found where lights are sampled with density `light_pdf`.
+    float light_share(const Lights::Sample& l, float lobe_pdf) const {
+        if (l.is_delta || setup_.strategy.directions == SamplingStrategy::Directions::light) {
+            return 1;
+        }
+        return mis(l.pdf, lobe_pdf);
+    }
+    float lobe_share(float light_pdf) const {
+        if (!(lobe_pdf_ > 0) || !(light_pdf > 0)) return 1;
+        if (setup_.strategy.directions == SamplingStrategy::Directions::light) return 0;
+        return mis(lobe_pdf_, light_pdf);
     }
 
     // Power heuristic (Veach 1997, eq. 9.13) for a sample of density a against b.

@@ -173,7 +173,7 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     const Geometry geometry(scene, options.isa);
     const OpticalElements elements(scene, options.isa);
     const NumberTextures numbers(scene);
-    const Lights lights(scene, geometry, light_choice(scene, options).constant_skies);
+    const Lights lights(scene, geometry, {}, light_choice(scene, options).constant_skies);
     if (options.lights_are_built) options.lights_are_built();
     summary.warnings.insert(summary.warnings.end(), lights.warnings().begin(),
                             lights.warnings().end());
@@ -194,6 +194,9 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     setup.surfaces = surface_model(scene, options);
     if (!options.trace_every_ray) setup.clear_after = bounces.clear_after;
     const auto tracer = make_batch_tracer(summary.transport, summary.wavelengths, setup);
+
+    const std::vector<std::string> coarse = tracer->warnings();
+    summary.warnings.insert(summary.warnings.end(), coarse.begin(), coarse.end());
 
     const FilmPart part = part_for(scene, options, summary, geometry.isa());
     RenderedFilm film{std::move(summary), part, FilmSums(part.job.layout()), {}};

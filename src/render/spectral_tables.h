@@ -1,13 +1,16 @@
 // Everything of a scene that depends on wavelength, laid out for packets of N.
 #pragma once
 
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "base/executor.h"
 #include "materials/film_table.h"
 #include "materials/rough_dielectric.h"
+#include "materials/surface.h"
 #include "materials/torrance_sparrow.h"
 #include "render/surface_model.h"
 #include "render/textures.h"
@@ -24,7 +27,8 @@ struct ConductorTables {
     Masking masking = Masking::smith;
     std::optional<PackedValue<N>> fixed_reflectance;
     PackedSpectrum<N> n, k;
-    FilmTable films;  // empty: bare metal
+    FilmTable films;      // empty: bare metal
+    std::string warning;  // where the table of films is coarse
 
     // Light comes from a clear medium of index `ambient`.
     ConductorTables(const ConductorMaterial& metal, const SurfaceModel& model, int threads,
@@ -45,6 +49,13 @@ struct ConductorTables {
                 parallel_for(static_cast<size_t>(count), threads,
                              [&](size_t i) { body(static_cast<int>(i)); });
             });
+            if (films.interpolation_error() > film_table_tolerance) {
+                warning = fmt::format(
+                    "{}: a clear film resonates more sharply than its table of {} angles shows; "
+                    "between them reflectances are wrong by up to {:.2g} (usual: below {:g})",
+                    surface.name, films.intervals() + 1, films.interpolation_error(),
+                    film_table_tolerance);
+            }
             return;
         }
         const DenseIndex index = dense(seen.substrate);
@@ -57,23 +68,6 @@ struct ConductorTables {
     Reflection<Packet<N>> reflection(float cos_theta, int phase) const {
         if (!films.empty()) return films.template at<N>(cos_theta, phase);
         return reflect(ComplexIndex<Packet<N>>{n[phase], k[phase]}, Packet<N>(cos_theta));
-    }
-
-  private:
-    // Everything counts against the index of the medium, and the wavelength in it is shorter by as
-    // much, which thicker films express as well.
-    static Material seen_from(Material material, double ambient) {
-        const auto divide = [&](OpticalConstants& constants) {
-            for (double& value : constants.n) value /= ambient;
-            for (double& value : constants.k) value /= ambient;
-        };
-        divide(material.substrate);
-        for (FilmLayer& layer : material.layers) {
-            divide(layer.constants);
-            layer.thickness_nm *= ambient;
-            layer.thickness_spread_nm *= ambient;
-        }
-        return material;
     }
 };
 
@@ -161,9 +155,9 @@ using SurfaceTables =
 
 template <int N>
 struct SpectralTables {
-    // All must outlive it. `threads` share the work of tabulating films.
+    // All but `observer` must outlive it. `threads` share the work of tabulating films.
     SpectralTables(const Scene& scene, const NumberTextures& numbers, const SurfaceModel& how,
-                   int threads)
+                   int threads, const ColourMatching& observer = cie1931())
         : model(how), textures(scene, numbers) {
         for (const SurfaceMaterial& material : scene.materials) {
             surfaces.push_back(
@@ -184,15 +178,33 @@ struct SpectralTables {
             primary[c] = 1;
             rgb_basis[c] = PackedSpectrum<N>(rgb_illuminant(primary));
         }
-        x = PackedSpectrum<N>(cie1931().x);
-        y = PackedSpectrum<N>(cie1931().y);
-        z = PackedSpectrum<N>(cie1931().z);
+        x = PackedSpectrum<N>(observer.x);
+        y = PackedSpectrum<N>(observer.y);
+        z = PackedSpectrum<N>(observer.z);
     }
 
     // The spectrum of RGB light from an environment's picture: basis times illuminant, summed.
     Packet<N> rgb_light(const glm::vec3& rgb, int phase) const {
         return Packet<N>(rgb.x) * rgb_basis[0][phase] + Packet<N>(rgb.y) * rgb_basis[1][phase] +
                Packet<N>(rgb.z) * rgb_basis[2][phase];
+    }
+
+    // What people should know of the tables, each once.
+    std::vector<std::string> warnings() const {
+        std::vector<std::string> all;
+        const auto add = [&](const ConductorTables<N>* metal) {
+            if (metal == nullptr || metal->warning.empty()) return;
+            if (std::find(all.begin(), all.end(), metal->warning) == all.end()) {
+                all.push_back(metal->warning);
+            }
+        };
+        for (const SurfaceTables<N>& surface : surfaces) {
+            add(std::get_if<ConductorTables<N>>(&surface));
+            if (const auto* coat = std::get_if<CoatTables<N>>(&surface)) {
+                add(std::get_if<ConductorTables<N>>(&coat->base));
+            }
+        }
+        return all;
     }
 
     SurfaceModel model;

@@ -103,17 +103,19 @@ template <int N>
 class ConductorScattering {
   public:
     static constexpr bool depolarises = false;
-    ConductorScattering(const ConductorTables<N>& metal, const Microfacets<float>& lobe, int phase)
-        : metal_(metal), lobe_(lobe), phase_(phase) {}
+    // `visible`: see SamplingStrategy::visible_normals.
+    ConductorScattering(const ConductorTables<N>& metal, const Microfacets<float>& lobe, int phase,
+                        bool visible)
+        : metal_(metal), lobe_(lobe), phase_(phase), visible_(visible) {}
     // Of a metal with a fixed reflectance: its value here.
     ConductorScattering(const ConductorTables<N>& metal, const Microfacets<float>& lobe, int phase,
-                        const Packet<N>& fixed)
-        : metal_(metal), lobe_(lobe), phase_(phase), fixed_(fixed) {}
+                        bool visible, const Packet<N>& fixed)
+        : metal_(metal), lobe_(lobe), phase_(phase), visible_(visible), fixed_(fixed) {}
 
     bool is_delta() const { return lobe_.is_mirror(); }
     LobeValue evaluate(const glm::vec3& o, const glm::vec3& i) const {
         const auto e = lobe_.evaluate(o, i);
-        return {e.value, e.pdf, e.m, false};
+        return {e.value, visible_ ? e.pdf : whole_pdf(o, e.m), e.m, false};
     }
     LobeSample sample(const glm::vec3& o, Sampler& sampler) const {
         LobeSample s;
@@ -123,6 +125,7 @@ class ConductorScattering {
             return s;
         }
         const glm::vec2 u = sampler.next_2d();
+        if (!visible_) return sample_whole(o, u, sampler.next_1d());
         const auto drawn = lobe_.sample(o, u.x, u.y, sampler.next_1d());
         if (!(drawn.pdf > 0)) return s;
         return {drawn.i, drawn.m, drawn.weight, drawn.pdf, false};
@@ -134,9 +137,24 @@ class ConductorScattering {
     }
 
   private:
+    // All facets by D cos. Those are the facets that are visible along the normal.
+    float whole_pdf(const glm::vec3& o, const glm::vec3& m) const {
+        return lobe_.D(m) * m.z / (4 * glm::dot(o, m));
+    }
+    LobeSample sample_whole(const glm::vec3& o, const glm::vec2& u, float u3) const {
+        LobeSample s;
+        const glm::vec3 m = lobe_.sample_visible({0, 0, 1}, u.x, u.y, u3);
+        const float om = glm::dot(o, m);
+        if (!(om > 0)) return s;
+        const glm::vec3 i = 2 * om * m - o;
+        if (!(i.z > 0)) return s;
+        return {i, m, lobe_.G2(o, i, m) * om / (o.z * m.z), whole_pdf(o, m), false};
+    }
+
     const ConductorTables<N>& metal_;
     const Microfacets<float>& lobe_;
     int phase_;
+    bool visible_;
     Packet<N> fixed_;
 };
 

@@ -1,10 +1,10 @@
 #include "report/pair_statistics.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
+#include "image/delta_e.h"
 #include "image/difference.h"
 #include "materials/spectrum.h"
 
@@ -26,16 +26,6 @@ Log10Difference summary(const std::vector<double>& differences) {
     s.p99 = percentile(differences, 0.99);
     s.max = percentile(differences, 1);
     return s;
-}
-
-// CIE 15:2018, section 8.2.1, of X, Y, Z over those of white.
-std::array<double, 3> lab(const XYZ& relative) {
-    const auto f = [](double t) {
-        constexpr double edge = 6.0 / 29.0;
-        return t > edge * edge * edge ? std::cbrt(t) : t / (3 * edge * edge) + 4.0 / 29.0;
-    };
-    const double x = f(relative[0]), y = f(relative[1]), z = f(relative[2]);
-    return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
 
 }  // namespace
@@ -63,22 +53,17 @@ PairStatistics pair_statistics(const Image& fitted, const Image& literature) {
     if (differing.empty()) return s;
     const double count = static_cast<double>(s.pixels);
     s.white = percentile(luminance, 0.99);
-    const XYZ white = rgb_to_xyz({1, 1, 1});
     double total = 0, moved = 0;
     for (size_t j = 0; j < differing.size(); ++j) {
         const size_t i = differing[j];
         s.mean_absolute += std::pow(10.0, logs[i]) / count;
-        XYZ x = rgb_to_xyz({a[0]->data[i], a[1]->data[i], a[2]->data[i]});
-        XYZ y = rgb_to_xyz({b[0]->data[i], b[1]->data[i], b[2]->data[i]});
-        total += y[1];
-        moved += std::abs(x[1] - y[1]);
+        const RGB x = {a[0]->data[i], a[1]->data[i], a[2]->data[i]};
+        const RGB y = {b[0]->data[i], b[1]->data[i], b[2]->data[i]};
+        const double x_luminance = rgb_to_xyz(x)[1], y_luminance = rgb_to_xyz(y)[1];
+        total += y_luminance;
+        moved += std::abs(x_luminance - y_luminance);
         if (!(s.white > 0)) continue;
-        for (size_t c = 0; c < 3; ++c) {
-            x[c] *= white[1] / (white[c] * s.white);
-            y[c] *= white[1] / (white[c] * s.white);
-        }
-        const std::array<double, 3> p = lab(x), q = lab(y);
-        const double distance = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+        const double distance = delta_e_1976(cielab_of_rgb(x, s.white), cielab_of_rgb(y, s.white));
         s.mean_delta_e += distance / count;
         s.noticeable += distance > 2.3 ? 1 / count : 0;
     }

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "base/numbers.h"
+#include "materials/film_table.h"
 #include "scene/builders.h"
 #include "scene/material_parts.h"
 #include "scene/spectra.h"
@@ -181,6 +182,17 @@ void check_exclusive(const ParameterList& list, std::initializer_list<std::strin
     }
 }
 
+void check_films(const Material& surface) {
+    for (const FilmLayer& layer : surface.layers) {
+        if (layer.thickness_nm <= thickest_film_nm) continue;
+        user_error(
+            "{}: a layer of {} is {} nm thick; films of up to {} nm are drawn, beyond it is a coat "
+            "(Material \"coatedconductor\"), or all there is of an opaque one",
+            surface.name, layer.constants.name, format_double(layer.thickness_nm),
+            format_double(thickest_film_nm));
+    }
+}
+
 }  // namespace
 
 ConductorMaterial build_conductor(ParameterList& list, const std::string& prefix,
@@ -219,7 +231,10 @@ ConductorMaterial build_conductor(ParameterList& list, const std::string& prefix
         conductor.surface.masking = Masking::smith;
         conductor.surface.beta = 0;
     }
-    at_place(list.place(), [&] { conductor.surface.check(); });
+    at_place(list.place(), [&] {
+        conductor.surface.check();
+        check_films(conductor.surface);
+    });
     return conductor;
 }
 

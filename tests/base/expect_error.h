@@ -26,4 +26,18 @@ void expect_error(Cause cause, std::initializer_list<const char*> words, const A
     ADD_FAILURE() << "nothing was thrown";
 }
 
+// The message of the Error (user) that `action` must throw; empty where it throws none, which
+// fails the test.
+template <class Action>
+std::string message_of(const Action& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.cause(), Cause::user) << error.message();
+        return error.message();
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return {};
+}
+
 }  // namespace drude

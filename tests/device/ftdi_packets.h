@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "device/fake_usb_port.h"
+#include "faults.h"
 
 namespace drude {
 
@@ -36,19 +37,6 @@ inline std::shared_ptr<FakeUsbPort> ftdi_port() {
     port->high_speed_ = false;
     port->packet_sizes_ = {{0x02, 64}, {0x81, 64}};
     return port;
-}
-
-// The fault of the DeviceError that `action` throws; fails the test where it throws none.
-template <class Action>
-Fault fault_of(const Action& action, std::string* message = nullptr) {
-    try {
-        action();
-    } catch (const DeviceError& error) {
-        if (message != nullptr) *message = error.message();
-        return error.fault();
-    }
-    ADD_FAILURE() << "no DeviceError";
-    return Fault::io;
 }
 
 }  // namespace drude

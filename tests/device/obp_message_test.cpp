@@ -8,23 +8,12 @@
 #include "device/device_error.h"
 #include "device/instrument_family.h"
 #include "device/instruments/obp_models.h"
+#include "faults.h"
 
 namespace drude {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
-
-template <class Call>
-Fault fault_of(const Call& call) {
-    try {
-        call();
-    } catch (const DeviceError& error) {
-        EXPECT_EQ(error.message().rfind("it:", 0), 0u) << error.message();
-        return error.fault();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return Fault::mechanical;
-}
 
 // Set the integration time to 100 ms, with an acknowledgement asked for: 64 bytes.
 const Bytes set_time = {
@@ -84,7 +73,7 @@ TEST(ObpMessage, EveryDamagedByteUnderAChecksumIsSeen) {
     }
     Bytes mismatch = good;
     mismatch[50] ^= 1;
-    EXPECT_EQ(fault_of([&] { parse_obp_message(mismatch, "it"); }), Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([&] { parse_obp_message(mismatch, "it"); }), Fault::bad_frame);
 }
 
 TEST(ObpMessage, WhatIsNoMessageIsRefused) {
@@ -94,7 +83,7 @@ TEST(ObpMessage, WhatIsNoMessageIsRefused) {
         return bytes;
     };
     const auto fault = [](const Bytes& bytes) {
-        return fault_of([&] { parse_obp_message(bytes, "it"); });
+        return fault_of_it([&] { parse_obp_message(bytes, "it"); });
     };
     EXPECT_EQ(fault(changed(0, 0xC0)), Fault::bad_frame);   // start
     EXPECT_EQ(fault(changed(3, 0x30)), Fault::bad_frame);   // version
@@ -121,8 +110,8 @@ TEST(ObpMessage, NumbersAndFloats) {
     EXPECT_EQ(parse_obp_number(Bytes{0x12}, "n", "it"), 0x12u);
     EXPECT_EQ(parse_obp_number(Bytes{0x34, 0x12}, "n", "it"), 0x1234u);
     EXPECT_EQ(parse_obp_number(Bytes{0x78, 0x56, 0x34, 0x92}, "n", "it"), 0x92345678u);
-    EXPECT_EQ(fault_of([] { parse_obp_number(Bytes{1, 2, 3}, "n", "it"); }), Fault::bad_frame);
-    EXPECT_EQ(fault_of([] { parse_obp_number({}, "n", "it"); }), Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([] { parse_obp_number(Bytes{1, 2, 3}, "n", "it"); }), Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([] { parse_obp_number({}, "n", "it"); }), Fault::bad_frame);
     // IEEE 754: 1.5 = 3FC00000, -0.25 = BE800000, NaN.
     const std::vector<double> values =
         parse_obp_floats(Bytes{0, 0, 0xC0, 0x3F, 0, 0, 0x80, 0xBE, 0, 0, 0xC0, 0x7F}, "c", "it");
@@ -130,8 +119,8 @@ TEST(ObpMessage, NumbersAndFloats) {
     EXPECT_EQ(values[0], 1.5);
     EXPECT_EQ(values[1], -0.25);
     EXPECT_TRUE(std::isnan(values[2]));
-    EXPECT_EQ(fault_of([] { parse_obp_floats(Bytes{1, 2, 3}, "c", "it"); }), Fault::bad_frame);
-    EXPECT_EQ(fault_of([] { parse_obp_floats({}, "c", "it"); }), Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([] { parse_obp_floats(Bytes{1, 2, 3}, "c", "it"); }), Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([] { parse_obp_floats({}, "c", "it"); }), Fault::bad_frame);
 }
 
 TEST(ObpModels, EveryDeviceThatIsListedHasAModel) {

@@ -8,6 +8,7 @@
 
 #include "device/instruments/obp_message.h"
 #include "fake_usb_port.h"
+#include "faults.h"
 
 namespace drude {
 namespace {
@@ -98,16 +99,6 @@ std::shared_ptr<FakeObp> make_sts(size_t packet = 64) {
     for (uint32_t i = 0; i < 1024; ++i) put(spectrum, 7 * i, 2);
     port->answers[0x101100] = spectrum;
     return port;
-}
-
-Fault fault_of_acquire(Spectrometer& spectrometer) {
-    try {
-        spectrometer.acquire();
-    } catch (const DeviceError& error) {
-        return error.fault();
-    }
-    ADD_FAILURE() << "a frame came";
-    return Fault::mechanical;
 }
 
 TEST(ObpSpectrometer, AnStsIsReadAndAsked) {

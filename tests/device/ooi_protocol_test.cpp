@@ -7,21 +7,10 @@
 #include "device/device_error.h"
 #include "device/instrument_family.h"
 #include "device/instruments/stored_calibration.h"
+#include "faults.h"
 
 namespace drude {
 namespace {
-
-template <class Call>
-Fault fault_of(const Call& call) {
-    try {
-        call();
-    } catch (const DeviceError& error) {
-        EXPECT_EQ(error.message().rfind("it:", 0), 0u) << error.message();
-        return error.fault();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return Fault::mechanical;
-}
 
 OoiModel small_model() {
     OoiModel model = *find_ooi_model(0x1022);
@@ -48,15 +37,15 @@ TEST(OoiProtocol, SlotsAreTextAfterAnEcho) {
     EXPECT_EQ(stored_text(slot), "1.78e+02");
     EXPECT_EQ(ooi_slot_number(slot), 178.0);
 
-    EXPECT_EQ(fault_of([&] { parse_ooi_slot(reply, 2, "it"); }), Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([&] { parse_ooi_slot(reply, 2, "it"); }), Fault::bad_frame);
     OoiBytes shorter = reply, longer = reply, other = reply;
     shorter.pop_back();
     longer.push_back(0);
     other[0] = 0x06;
-    EXPECT_EQ(fault_of([&] { parse_ooi_slot(shorter, 1, "it"); }), Fault::short_read);
-    EXPECT_EQ(fault_of([&] { parse_ooi_slot({}, 1, "it"); }), Fault::short_read);
-    EXPECT_EQ(fault_of([&] { parse_ooi_slot(longer, 1, "it"); }), Fault::overflow);
-    EXPECT_EQ(fault_of([&] { parse_ooi_slot(other, 1, "it"); }), Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([&] { parse_ooi_slot(shorter, 1, "it"); }), Fault::short_read);
+    EXPECT_EQ(fault_of_it([&] { parse_ooi_slot({}, 1, "it"); }), Fault::short_read);
+    EXPECT_EQ(fault_of_it([&] { parse_ooi_slot(longer, 1, "it"); }), Fault::overflow);
+    EXPECT_EQ(fault_of_it([&] { parse_ooi_slot(other, 1, "it"); }), Fault::bad_frame);
 }
 
 TEST(OoiProtocol, ANumberIsTheWholeOfASlot) {
@@ -82,9 +71,9 @@ TEST(OoiProtocol, StatusGivesPixelsTimeAndSpeed) {
     reply[14] = 0;
     EXPECT_FALSE(parse_ooi_status(reply, "it").high_speed);
     reply[14] = 0x40;
-    EXPECT_EQ(fault_of([&] { parse_ooi_status(reply, "it"); }), Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([&] { parse_ooi_status(reply, "it"); }), Fault::bad_frame);
     reply.pop_back();
-    EXPECT_EQ(fault_of([&] { parse_ooi_status(reply, "it"); }), Fault::short_read);
+    EXPECT_EQ(fault_of_it([&] { parse_ooi_status(reply, "it"); }), Fault::short_read);
 }
 
 TEST(OoiProtocol, AFrameIsCountsAndASyncByte) {
@@ -98,13 +87,14 @@ TEST(OoiProtocol, AFrameIsCountsAndASyncByte) {
 
     OoiBytes lost = frame;
     lost.back() = 0x00;
-    EXPECT_EQ(fault_of([&] { parse_ooi_frame(lost, small_model(), "it"); }), Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([&] { parse_ooi_frame(lost, small_model(), "it"); }), Fault::bad_frame);
     const OoiBytes shorter(frame.begin() + 1, frame.end());  // still ends with 69
     OoiBytes longer = frame;
     longer.push_back(0x69);
-    EXPECT_EQ(fault_of([&] { parse_ooi_frame(shorter, small_model(), "it"); }), Fault::short_read);
-    EXPECT_EQ(fault_of([&] { parse_ooi_frame(longer, small_model(), "it"); }), Fault::overflow);
-    EXPECT_EQ(fault_of([&] { parse_ooi_frame({}, small_model(), "it"); }), Fault::short_read);
+    EXPECT_EQ(fault_of_it([&] { parse_ooi_frame(shorter, small_model(), "it"); }),
+              Fault::short_read);
+    EXPECT_EQ(fault_of_it([&] { parse_ooi_frame(longer, small_model(), "it"); }), Fault::overflow);
+    EXPECT_EQ(fault_of_it([&] { parse_ooi_frame({}, small_model(), "it"); }), Fault::short_read);
 }
 
 TEST(OoiProtocol, AJazSendsNoSyncByte) {
@@ -176,12 +166,18 @@ TEST(StoredCalibration, WavelengthsAreAPolynomialOfThePixel) {
     EXPECT_DOUBLE_EQ(nm[0], 340 - 0.25 - 1e-5);
     EXPECT_DOUBLE_EQ(nm[1], 340);
     EXPECT_DOUBLE_EQ(nm[2], 340.25 - 1e-5);
-    EXPECT_EQ(fault_of([] { polynomial_wavelengths({340, NAN}, 3, 0, "it"); }), Fault::bad_frame);
-    EXPECT_EQ(fault_of([] { polynomial_wavelengths({340, 0}, 3, 0, "it"); }), Fault::bad_frame);
-    EXPECT_EQ(fault_of([] { polynomial_wavelengths({0, 0, 0, 0}, 3, 0, "it"); }), Fault::bad_frame);
-    EXPECT_EQ(fault_of([] { polynomial_wavelengths({}, 3, 0, "it"); }), Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([] {
+                  polynomial_wavelengths({340, NAN}, 3, 0, "it");
+              }),
+              Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([] { polynomial_wavelengths({340, 0}, 3, 0, "it"); }), Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([] {
+                  polynomial_wavelengths({0, 0, 0, 0}, 3, 0, "it");
+              }),
+              Fault::bad_frame);
+    EXPECT_EQ(fault_of_it([] { polynomial_wavelengths({}, 3, 0, "it"); }), Fault::bad_frame);
     // Descends from pixel 50 on.
-    EXPECT_EQ(fault_of([] {
+    EXPECT_EQ(fault_of_it([] {
                   polynomial_wavelengths({340, 1, -0.01}, 100, 0, "it");
               }),
               Fault::bad_frame);

@@ -7,6 +7,7 @@
 #include "device/instruments/ooi_models.h"
 #include "device/instruments/ooi_protocol.h"
 #include "fake_usb_port.h"
+#include "faults.h"
 
 namespace drude {
 namespace {
@@ -84,16 +85,6 @@ struct Opened {
     std::shared_ptr<Spectrometer> spectrometer;
     void open() { spectrometer = open_ooi(port, clock); }
 };
-
-Fault fault_of_acquire(Spectrometer& spectrometer) {
-    try {
-        spectrometer.acquire();
-    } catch (const DeviceError& error) {
-        return error.fault();
-    }
-    ADD_FAILURE() << "a frame came";
-    return Fault::mechanical;
-}
 
 void expect_frame(const Frame& frame, int number) {
     ASSERT_EQ(frame.counts.size(), 3840u);

@@ -5,22 +5,11 @@
 #include <functional>
 #include <string>
 
-#include "base/error.h"
+#include "base/expect_error.h"
 #include "device/instrument_family.h"
 
 namespace drude {
 namespace {
-
-std::string message_of(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.cause(), Cause::user) << error.message();
-        return error.message();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
-}
 
 void expect_in(const std::string& part, const std::string& message) {
     EXPECT_NE(message.find(part), std::string::npos) << message;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "base/expect_error.h"
 #include "image/compare.h"
 
 namespace drude {
@@ -21,16 +21,6 @@ inline Image picture(int width, int height, const std::vector<std::string>& name
         data.assign(data.size(), value);
     }
     return image;
-}
-
-inline std::string message_of(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.cause(), Cause::user);
-        return error.message();
-    }
-    return "";
 }
 
 inline Comparison compare(const Image& a, const Image& b, const CompareOptions& options = {}) {

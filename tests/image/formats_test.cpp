@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/module.h"
 #include "image/image.h"
 #include "image/oiio_loader.h"
 #include "image/srgb.h"
@@ -129,7 +130,7 @@ TEST(ReadImage, BadFilesAreUserErrors) {
 
 TEST(Module, IsLookedForInTheFoldersOfTheEnvironmentFirst) {
     ASSERT_EQ(setenv("DRUDE_MODULE_PATH", "/first/place:/second/place", 1), 0);
-    const std::vector<std::string> candidates = oiio_module_candidates();
+    const std::vector<std::string> candidates = module_candidates(oiio_module_file);
     unsetenv("DRUDE_MODULE_PATH");
     ASSERT_GE(candidates.size(), 4U);
     EXPECT_EQ(candidates[0], "/first/place/drude-oiio.so");

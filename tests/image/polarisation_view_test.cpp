@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "base/error.h"
+#include "base/expect_error.h"
 #include "image/analyser.h"
 #include "shared_data.h"
 
@@ -35,16 +35,6 @@ Image colours(const std::vector<std::array<float, 4>>& pixels) {
 StokesLayer layer_of(const std::vector<std::array<float, 4>>& pixels) {
     const Image image = colours(pixels);
     return read_stokes_layer(image, "a.exr", choose_layer(image, "a.exr", {}), true);
-}
-
-std::string message_of(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.cause(), Cause::user);
-        return error.message();
-    }
-    return "";
 }
 
 TEST(PolarisationView, FiguresByHand) {

@@ -26,7 +26,7 @@ Material full_material() {
     bulk.wavelength_nm = {380, 380.1, 1000.0 / 3};
     std::sort(bulk.wavelength_nm.begin(), bulk.wavelength_nm.end());
     bulk.n = {0.1, std::nextafter(1.0, 2.0), 5e-324};
-    bulk.k = {0, -0.0, 1e308};
+    bulk.k = {0, -0.0, 1e6};
     bulk.sigma_n = {1e-3, 2e-17, 0};
     bulk.sigma_k = {1.0 / 3, 2.0 / 3, 1e-300};
     bulk.policy = RangePolicy::error;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "materials/quadrature.h"
 #include "materials/scalar.h"
 
 namespace drude::numeric {
@@ -17,46 +18,15 @@ namespace drude::numeric {
 // ---- quadrature
 // ----------------------------------------------------------------------------------
 
-// Gauss-Legendre nodes and weights on [-1, 1]: Newton's method on P_n from its recurrence
-// (Abramowitz & Stegun 1964, 22.7.10 and 25.4.29).
-struct GaussRule {
-    std::vector<double> node, weight;
-
-    explicit GaussRule(int n) : node(n), weight(n) {
-        for (int i = 0; i < n; ++i) {
-            double x = std::cos(pi * (i + 0.75) / (n + 0.5)), slope = 0;
-            for (int step = 0; step < 100; ++step) {
-                double p = 1, before = 0;
-                for (int k = 1; k <= n; ++k) {
-                    const double next = ((2 * k - 1) * x * p - (k - 1) * before) / k;
-                    before = p;
-                    p = next;
-                }
-                slope = n * (x * p - before) / (x * x - 1);
-                const double change = p / slope;
-                x -= change;
-                if (std::abs(change) < 1e-15) break;
-            }
-            node[i] = x;
-            weight[i] = 2 / ((1 - x * x) * slope * slope);
-        }
-    }
-};
-
-inline const GaussRule& gauss16() {
-    static const GaussRule rule(16);
-    return rule;
-}
-
 // The integral of f over [a, b] in equal panels of 16 nodes.
 template <class F>
 double integrate(double a, double b, int panels, const F& f) {
-    const GaussRule& rule = gauss16();
+    static const QuadratureRule rule = gauss_legendre(16);
     double total = 0;
     for (int p = 0; p < panels; ++p) {
         const double half = (b - a) / (2 * panels), middle = a + (2 * p + 1) * half;
-        for (size_t j = 0; j < rule.node.size(); ++j) {
-            total += half * rule.weight[j] * f(middle + half * rule.node[j]);
+        for (size_t j = 0; j < rule.x.size(); ++j) {
+            total += half * rule.weight[j] * f(middle + half * rule.x[j]);
         }
     }
     return total;

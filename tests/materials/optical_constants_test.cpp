@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "base/error.h"
+#include "base/expect_error.h"
 #include "base/files.h"
 #include "shared_data.h"
 
@@ -23,18 +23,6 @@ OpticalConstants small_table() {
     constants.n = {1, 2, 0.5};
     constants.k = {3, 3.5, 4};
     return constants;
-}
-
-// The message of the Error (user) that `run` must throw.
-std::string message_of(const std::function<void()>& run) {
-    try {
-        run();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.cause(), Cause::user) << error.message();
-        return error.message();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
 }
 
 bool contains(const std::string& text, const std::string& part) {

@@ -120,6 +120,24 @@ TYPED_TEST(PacketTest, ExpAgreesWithDouble) {
     EXPECT_TRUE(std::isfinite(exp(TypeParam(1000.0f))[0]));
 }
 
+TYPED_TEST(PacketTest, ExpLessOneKeepsItsDigitsNextToZero) {
+    numeric::Uniform u(12);
+    double worst = 0;
+    for (int round = 0; round < 4000; ++round) {
+        const double size = std::pow(10, u.between(-30, 1.9));
+        const TypeParam a = this->random(u, -size, size);
+        const TypeParam e = expm1(a);
+        for (int i = 0; i < TypeParam::size; ++i) {
+            if (a[i] == 0) continue;
+            const double exact = std::expm1(static_cast<double>(a[i]));
+            worst = std::max(worst, std::abs(e[i] / exact - 1));
+        }
+    }
+    EXPECT_LT(worst, 3e-7);
+    EXPECT_EQ(expm1(TypeParam(0.0f))[0], 0.0f);
+    EXPECT_EQ(expm1(TypeParam(-1000.0f))[0], -1.0f);
+}
+
 TYPED_TEST(PacketTest, SinAndCosOfTurnsAgreeWithDouble) {
     numeric::Uniform u(3);
     double worst = 0;

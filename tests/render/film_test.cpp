@@ -5,6 +5,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/expect_error.h"
 #include "base/files.h"
 #include "render/film_merge.h"
 #include "render/film_partial.h"
@@ -37,16 +38,6 @@ void expect_same_picture(const Image& a, const Image& b) {
         ASSERT_NE(other, nullptr) << channel.name;
         EXPECT_EQ(other->data, channel.data) << channel.name;
     }
-}
-
-std::string message_of(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.cause(), Cause::user);
-        return error.message();
-    }
-    return "nothing thrown";
 }
 
 TEST(Film, ShardsMakeThePictureOfOneRun) {

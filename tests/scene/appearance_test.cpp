@@ -149,10 +149,6 @@ TEST(Textures, ThatChangeOverASurfaceAreKept) {
     EXPECT_TRUE(contains(scene.stand_ins[1], "'eta' cannot change over a surface here"));
 }
 
-double luminance(const DenseSpectrum& spectrum) {
-    return spectrum_to_xyz(spectrum)[1];
-}
-
 TEST(Lights, AreNormalisedAsInPbrt) {
     // rgb: D65 of Y = 1 times the colour. Everything else: Y = 1, then scale.
     const Scene scene = world_of(

@@ -1,23 +1,10 @@
 #include <gtest/gtest.h>
-#include <zlib.h>
-
-#include <fstream>
 
 #include "scene_text.h"
 #include "temporary_folder.h"
 
 namespace drude {
 namespace {
-
-void write(const std::string& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
-
-void write_gz(const std::string& path, const std::string& text) {
-    gzFile file = gzopen(path.c_str(), "wb");
-    gzwrite(file, text.data(), static_cast<unsigned>(text.size()));
-    gzclose(file);
-}
 
 double x_of(const Shape& shape) {
     return shape.world_from_object[3][0];

@@ -9,10 +9,6 @@
 namespace drude {
 namespace {
 
-double luminance(const DenseSpectrum& spectrum) {
-    return spectrum_to_xyz(spectrum)[1];
-}
-
 TEST(LightText, PointsAndSpots) {
     const Scene scene = world_of(
         "Translate 1 0 0 Scale 2 2 2\n"

@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <cstring>
-#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "scene/builders.h"
@@ -102,11 +100,8 @@ TEST(Ply, AllThreeFormatsGiveTheSameMesh) {
 
 TEST(Ply, IsReadFromASceneAndPacked) {
     TemporaryFolder folder;
-    std::ofstream(folder.file("a.ply"), std::ios::binary) << binary_ply(false);
-    gzFile file = gzopen(folder.file("b.ply.gz").c_str(), "wb");
-    const std::string big = binary_ply(true);
-    gzwrite(file, big.data(), static_cast<unsigned>(big.size()));
-    gzclose(file);
+    write(folder.file("a.ply"), binary_ply(false));
+    write_gz(folder.file("b.ply.gz"), binary_ply(true));
     const Scene scene = parse_scene(
         "WorldBegin Shape \"plymesh\" \"string filename\" \"a.ply\"\n"
         "Shape \"plymesh\" \"string filename\" \"b.ply.gz\"",

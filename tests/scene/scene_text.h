@@ -2,10 +2,13 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
+#include <fstream>
 #include <string>
 
 #include "scene/scene.h"
+#include "scene/spectra.h"
 
 namespace drude {
 
@@ -43,6 +46,20 @@ inline bool warns(const Scene& scene, const std::string& part) {
         if (contains(warning, part)) return true;
     }
     return false;
+}
+
+inline double luminance(const DenseSpectrum& spectrum) {
+    return spectrum_to_xyz(spectrum)[1];
+}
+
+inline void write(const std::string& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+inline void write_gz(const std::string& path, const std::string& text) {
+    gzFile file = gzopen(path.c_str(), "wb");
+    gzwrite(file, text.data(), static_cast<unsigned>(text.size()));
+    gzclose(file);
 }
 
 }  // namespace drude

@@ -1,11 +1,9 @@
 // The grammar of pbrt-v4 point by point: every type of value in every way of writing it, and text
 // in every dress.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "base/files.h"
 #include "scene/vocabulary.h"
@@ -24,10 +22,6 @@ std::vector<std::string> seed_texts() {
     }
     std::sort(texts.begin(), texts.end());
     return texts;
-}
-
-void write(const std::string& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
 }
 
 double x_of(const Shape& shape) {
@@ -243,10 +237,8 @@ TEST(Syntax, FilesStandInTheMiddleOfABlock) {
           "\xef\xbb\xbf"
           "AttributeBegin Translate 1 0 0");
     write(folder.file("close.pbrt"), "Shape \"sphere\" AttributeEnd # no end of line");
-    gzFile file = gzopen(folder.file("import.pbrt.gz").c_str(), "wb");
-    const std::string packed = "Translate 5 0 0 Shape \"sphere\" ColorSpace \"rec2020\"";
-    gzwrite(file, packed.data(), static_cast<unsigned>(packed.size()));
-    gzclose(file);
+    write_gz(folder.file("import.pbrt.gz"),
+             "Translate 5 0 0 Shape \"sphere\" ColorSpace \"rec2020\"");
     const Scene scene = parse_scene(
         "WorldBegin Include \"open.pbrt\" Import \"import.pbrt.gz\" Include \"close.pbrt\"\n"
         "Material \"diffuse\" \"rgb reflectance\" [ 1 0 0 ] Shape \"sphere\"",

@@ -1,10 +1,14 @@
-#include "base/module_path.h"
+#include "base/module.h"
+
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <system_error>
+
+#include "base/error.h"
 
 namespace drude {
 
@@ -40,10 +44,36 @@ std::vector<std::string> module_candidates(const std::string& file_name) {
         for (const fs::path& architecture : architectures) add(architecture / "drude");
         add(folder.parent_path() / "lib64" / "drude");
     }
-#ifdef DRUDE_MODULE_FOLDER
-    add(DRUDE_MODULE_FOLDER);
-#endif
     return candidates;
+}
+
+std::string module_folders(const std::string& file_name) {
+    std::vector<std::string> folders;
+    for (const std::string& path : module_candidates(file_name)) {
+        folders.push_back(std::filesystem::path(path).parent_path().string());
+    }
+    return fmt::format("{}", fmt::join(folders, ", "));
+}
+
+void LoadedModule::refuse() const {
+    dlclose(library);
+    outside_error("{}: belongs to another version of drude; install both together", path);
+}
+
+LoadedModule load_module(const std::string& file_name, bool visible, const std::string& package) {
+    for (const std::string& path : module_candidates(file_name)) {
+        if (!std::filesystem::exists(path)) continue;
+        void* library = dlopen(path.c_str(), RTLD_NOW | (visible ? RTLD_GLOBAL : RTLD_LOCAL));
+        if (!library) {
+            const char* reason = dlerror();
+            outside_error(
+                "{}: does not load: {}; install {} or build again against the one that is "
+                "installed",
+                path, reason ? reason : "no reason given", package);
+        }
+        return {library, path};
+    }
+    return {};
 }
 
 }  // namespace drude

@@ -1,0 +1,53 @@
+#include "bench/charts/colour_error.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "image/delta_e.h"
+
+namespace drude {
+
+namespace {
+
+XYZ xyz_at(const TracedPicture& picture, size_t pixel) {
+    const double* rgb = picture.at(pixel);
+    return rgb_to_xyz({rgb[0], rgb[1], rgb[2]});
+}
+
+Lab lab_at(const TracedPicture& picture, size_t pixel, const XYZ& white) {
+    XYZ over = xyz_at(picture, pixel);
+    for (size_t i = 0; i < 3; ++i) over[i] /= white[i];
+    return cielab(over);
+}
+
+}  // namespace
+
+double mean_delta_e(const TracedPicture& picture, const TracedPicture& reference,
+                    const XYZ& white) {
+    if (picture.pixels() != reference.pixels()) {
+        throw std::logic_error("mean_delta_e: pictures of different sizes");
+    }
+    double total = 0;
+    for (size_t p = 0; p < picture.pixels(); ++p) {
+        total += delta_e_2000(lab_at(picture, p, white), lab_at(reference, p, white));
+    }
+    return total / static_cast<double>(picture.pixels());
+}
+
+TracedPicture mean_picture(const ReferencePicture& reference) {
+    TracedPicture mean = reference.first;
+    for (size_t i = 0; i < mean.values.size(); ++i) mean.values[i] = reference.mean(i);
+    return mean;
+}
+
+XYZ exposed_white(const TracedPicture& picture, const XYZ& white) {
+    std::vector<double> luminance;
+    for (size_t p = 0; p < picture.pixels(); ++p) luminance.push_back(xyz_at(picture, p)[1]);
+    const size_t at = static_cast<size_t>(0.99 * static_cast<double>(luminance.size() - 1));
+    std::nth_element(luminance.begin(), luminance.begin() + static_cast<std::ptrdiff_t>(at),
+                     luminance.end());
+    const double scale = luminance[at] / white[1];
+    return {white[0] * scale, white[1] * scale, white[2] * scale};
+}
+
+}  // namespace drude
