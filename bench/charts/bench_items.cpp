@@ -1,7 +1,5 @@
 #include "bench/charts/bench_items.h"
 
-#include "bench/charts/defaults_item.h"
-
 namespace drude {
 
 const std::vector<BenchItem>& bench_items() {
@@ -22,9 +20,7 @@ const std::vector<BenchItem>& bench_items() {
         table_stability_item(),
         fit_stability_item(),
         capture_stability_item(),
-        {"defaults", "No more model than a scene needs",
-         "what is chosen by itself against the richest of everything, on the scenes of scenes/",
-         run_defaults},
+        defaults_item(),
     };
     return all;
 }

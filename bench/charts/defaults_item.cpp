@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "bench/charts/bench_items.h"
 #include "bench/charts/experiment.h"
 #include "image/compare.h"
 #include "materials/embedded_tables.h"
@@ -253,6 +254,12 @@ BenchResult run_defaults(const BenchOptions& options) {
     BenchResult costs = run_decision_costs(options);
     for (BenchTable& table : costs.tables) result.tables.push_back(std::move(table));
     return result;
+}
+
+BenchItem defaults_item() {
+    return {"defaults", "No more model than a scene needs",
+            "what is chosen by itself against the richest of everything, on the scenes of scenes/",
+            run_defaults};
 }
 
 }  // namespace drude

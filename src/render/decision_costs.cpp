@@ -8,9 +8,9 @@ namespace drude {
 namespace {
 
 constexpr std::array<int, 4> widths = {4, 8, 16, 40};
-// Rows: scalar, intensity, stokes. Over scalar with 8 wavelengths.
+// Rows: scalar, intensity, stokes. Over scalar with 8 wavelengths; differences of 0.02 are noise.
 constexpr double cost[3][4] = {
-    {0.97, 1.00, 1.12, 1.75}, {0.98, 1.03, 1.17, 1.95}, {1.00, 1.09, 1.35, 2.60}};
+    {0.99, 1.00, 1.00, 1.20}, {0.99, 1.00, 1.04, 1.26}, {1.02, 1.05, 1.12, 1.71}};
 
 double at(Transport transport, int wavelengths) {
     for (size_t i = 0; i < widths.size(); ++i) {
