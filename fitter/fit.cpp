@@ -224,9 +224,10 @@ void warn_about_result(FitResult* result, const FitOptions& options) {
     }
     if (!rough.empty()) {
         result->warnings.push_back(fmt::format(
-            "five standard deviations of n or k reach 0 at {} of {} wavelengths ({}): tan^2 Psi "
-            "alone scatters them by more than that (--profile shows how far; --estimator psi-delta "
-            "takes Delta as well)",
+            "a standard deviation is above a tenth of n or k at {} of {} wavelengths ({}): tan^2 "
+            "Psi "
+            "alone scatters them by more than it says (--profile shows how far; --estimator "
+            "psi-delta takes Delta as well)",
             rough.size(), result->points.size(), wavelength_list(rough)));
     }
     for (const FittedParameter& parameter : result->common) {

@@ -250,7 +250,7 @@ void refuse_if_unknown(const WavelengthData& data, Estimator estimator, FittedPo
 
 bool understates_errors(const FittedPoint& point, Estimator estimator) {
     return estimator == Estimator::rho2 && point.identifiable &&
-           (5 * point.sigma_n > point.n || 5 * point.sigma_k > point.k);
+           (10 * point.sigma_n > point.n || 10 * point.sigma_k > point.k);
 }
 
 bool hold_nothing(const std::vector<WavelengthData>& groups, Estimator estimator) {

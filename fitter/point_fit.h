@@ -33,10 +33,11 @@ FittedPoint fit_point_from(const WavelengthData& data, Estimator estimator, Inde
 inline constexpr double not_known_at_all = 100;
 void refuse_if_unknown(const WavelengthData& data, Estimator estimator, FittedPoint* point);
 
-// Whether five standard deviations of n or of k reach 0 in a fit of tan^2 Psi alone. Its chi-square
-// follows the logarithms of n and k along a bent valley: noise then takes an estimate much further
-// than the standard deviations say, those of aluminium and silver by five and more of them. Psi and
-// Delta together are linear enough in n and k for their standard deviations to hold there.
+// Whether a standard deviation is above a tenth of n or k in a fit of tan^2 Psi alone. Its
+// chi-square follows the logarithms of n and k along a bent valley: where these scatter by r, an
+// estimate that is low by x standard deviations states them too small, and is off by
+// (exp(x r) - 1)/r of those it states, 5 for x = 4 and r = 0.1. Psi and Delta together are linear
+// enough in n and k for their standard deviations to hold there.
 bool understates_errors(const FittedPoint& point, Estimator estimator);
 
 // Why data that hold nothing are refused.

@@ -132,11 +132,11 @@ StabilityMap fit_map(const std::string& id, const std::string& title, int seeds)
     return map;
 }
 
-// The domain of both estimators: a tenth leaves room for the scatter of the standard deviations
-// themselves up to the fifth at which a warning begins.
-constexpr double most_vague = 0.1;
+// The domain of both estimators leaves room for the scatter of the standard deviations themselves
+// up to the tenth of n and k at which a warning begins.
+constexpr double most_vague = 0.05;
 std::string domain_in_words(const std::string& estimator) {
-    return fmt::format("where {} let n and k be known to a tenth of their values",
+    return fmt::format("where {} let n and k be known to a twentieth of their values",
                        estimator == "rho2" ? "tan^2 Psi" : "Psi and Delta");
 }
 
