@@ -6,6 +6,9 @@
 
 #include "base/executor.h"
 #include "bench/charts/experiment.h"
+#include "render/bounce_choice.h"
+#include "render/light_choice.h"
+#include "render/surface_model.h"
 
 namespace drude {
 
@@ -45,7 +48,9 @@ TracedScene::TracedScene(Scene scene, const SamplingStrategy& strategy)
       geometry_(scene_),
       elements_(scene_, ""),
       numbers_(scene_),
-      lights_(scene_, geometry_, strategy),
+      // The usual strategy is the renderer's, with what it decides of this scene.
+      lights_(scene_, geometry_, strategy,
+              !(strategy == SamplingStrategy()) || light_choice(scene_, {}).constant_skies),
       camera_(scene_.camera, scene_.film.width, scene_.film.height),
       filter_(scene_.filter) {}
 
@@ -53,6 +58,8 @@ TracerSetup TracedScene::setup(uint64_t seed, const ColourMatching& observer) co
     TracerSetup setup{scene_,  geometry_, lights_,          elements_, numbers_, camera_,
                       filter_, seed,      scene_.max_depth, 0,         strategy_};
     setup.observer = &observer;
+    setup.surfaces = surface_model(scene_, {});
+    if (strategy_ == SamplingStrategy()) setup.clear_after = bounce_choice(scene_).clear_after;
     return setup;
 }
 

@@ -14,6 +14,9 @@ struct SamplingStrategy {
         light,
         // Both, weighted by the power heuristic.
         both
+
+        bool
+        operator==(const SamplingStrategy&) const = default;
     };
     Directions directions = Directions::both;
     // Environments: luminance less its mean (see Environment), or luminance itself.
@@ -21,6 +24,8 @@ struct SamplingStrategy {
     // Metals: facets in proportion to what is seen of them, or by D cos whatever is seen, as
     // before Heitz & d'Eon 2014. Other surfaces keep to visible facets.
     bool visible_normals = true;
+
+    bool operator==(const SamplingStrategy&) const = default;
 };
 
 }  // namespace drude
