@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/executor.h"
+#include "fitter/dispersion_choice.h"
 #include "fitter/dispersion_fit.h"
 #include "fitter/film_fit.h"
 #include "fitter/fit_data.h"
@@ -282,6 +283,7 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
     if (options.robust != "none") return fit_robust(measurement, options);
     if (options.model == "auto") return fit_ladder(measurement, options);
     if (options.model == "film") return fit_film(measurement, options);
+    if (options.dispersion == "auto") return fit_dispersion_if_it_holds(measurement, options);
     FitResult result;
     result.estimator = options.estimator;
     result.model = options.model;

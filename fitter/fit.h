@@ -60,7 +60,8 @@ struct FitOptions {
     // only: a thin layer on unknown n and k is indistinguishable from other n and k.
     KnownOrFitted roughness_nm;
     // What n and k of the models bulk and overlayer follow over the wavelengths: "" for no formula,
-    // every wavelength by itself; otherwise what fit_dispersion() takes.
+    // every wavelength by itself; "auto" for a formula where one holds (dispersion_choice.h);
+    // otherwise what fit_dispersion() takes.
     std::string dispersion;
     // Where its least squares start, instead of the search: FitResult::dispersion_parameters of an
     // earlier fit of the same formula. Empty: the search.
@@ -75,7 +76,8 @@ struct FitOptions {
     // of the result then come from the scatter of the residuals.
     bool unweighted = false;
     // What a row far from the model counts: "none" takes squares; huber, cauchy and tukey let it
-    // count less (robust_fit.h). Not with inversion, the model auto, or `unweighted`.
+    // count less (robust_fit.h), auto where there are such rows. Not with inversion, the model
+    // auto, or `unweighted`.
     std::string robust = "none";
     // What errors that rows share add to the standard deviation of the reduced chi-square, at least
     // 0: chi2_common_scatter() (common_error.h). It moves no fit, only what is said of chi-square.

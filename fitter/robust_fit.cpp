@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "fitter/robust_choice.h"
 #include "fitter/row_residuals.h"
 
 namespace drude {
@@ -183,10 +184,22 @@ class Reweighting {
     std::vector<RowResidual> residuals_;
 };
 
+FitResult fit_robust_if_needed(const Measurement& measurement, FitOptions options) {
+    options.robust = "none";
+    FitResult plain = fit_measurement(measurement, options);
+    const RobustChoice choice = robust_choice(plain, measurement, options);
+    if (choice.loss == "none") return plain;
+    options.robust = choice.loss;
+    FitResult robust = fit_robust(measurement, options);
+    robust.warnings.push_back(
+        fmt::format("the robust loss {} was taken: {}", choice.loss, choice.reason));
+    return robust;
+}
+
 }  // namespace
 
 const std::vector<std::string>& robust_names() {
-    static const std::vector<std::string> names = {"none", "huber", "cauchy", "tukey"};
+    static const std::vector<std::string> names = {"none", "huber", "cauchy", "tukey", "auto"};
     return names;
 }
 
@@ -198,6 +211,7 @@ double robust_constant(const std::string& name) {
 
 FitResult fit_robust(const Measurement& measurement, const FitOptions& options) {
     check(options);
+    if (options.robust == "auto") return fit_robust_if_needed(measurement, options);
     const auto loss = make_loss(options.robust);
     Reweighting reweighting(measurement, options);
     if (options.robust != "huber") {

@@ -5,7 +5,7 @@
 
 namespace drude {
 
-// "none", "huber", "cauchy", "tukey".
+// "none", "huber", "cauchy", "tukey", and "auto": none, or tukey where robust_choice() says so.
 const std::vector<std::string>& robust_names();
 
 // Where a loss begins to bend, in standard deviations of a residual: 1.345, 2.385 and 4.685, at

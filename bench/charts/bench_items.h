@@ -13,6 +13,7 @@ BenchItem fresnel_item();
 BenchItem microfacet_item();
 BenchItem fit_item();
 BenchItem capture_item();
+BenchItem defaults_item();
 
 // Stability where methods fail.
 BenchItem fresnel_stability_item();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/progress.h"
 #include "bench/charts/bench_items.h"
 #include "bench/charts/capture_experiment.h"
 #include "bench/charts/experiment.h"
@@ -57,6 +58,12 @@ std::vector<NamedRecipe> recipes(bool quick) {
         add("steps: 1 frame, 1 cycle, 1 zone", fmt::format("{} steps", n),
             [n](Recipe* r) { r->steps = n, r->averages = 1, r->cycles = 1, r->zones_deg = {45}; });
     }
+    const std::vector<int> darks =
+        quick ? std::vector<int>{16, 256} : std::vector<int>{4, 16, 64, 256};
+    for (const int n : darks) {
+        add("dark frames: 24 steps, 4 frames, 2 cycles, 2 zones", fmt::format("{} dark frames", n),
+            [n](Recipe* r) { r->dark_frames = n; });
+    }
     return all;
 }
 
@@ -80,7 +87,7 @@ const std::vector<BenchKind>& benches() {
 using Outcomes = std::vector<std::vector<CaptureOutcome>>;
 
 Outcomes run_all(const std::vector<NamedRecipe>& named, const BenchKind& bench, int seeds,
-                 size_t metals) {
+                 size_t metals, bool quiet) {
     Outcomes outcomes(named.size(), std::vector<CaptureOutcome>(static_cast<size_t>(seeds)));
     std::vector<Method> methods;
     for (size_t i = 0; i < named.size(); ++i) {
@@ -108,7 +115,8 @@ Outcomes run_all(const std::vector<NamedRecipe>& named, const BenchKind& bench, 
                        return Measured{1, 0};
                    }}}});
     }
-    run_shuffled(methods, seeds);
+    Progress progress("sweeps, " + bench.name, named.size() * static_cast<size_t>(seeds), quiet);
+    run_shuffled(methods, seeds, 1, [&] { progress.step(); });
     return outcomes;
 }
 
@@ -163,7 +171,8 @@ Chart chart_of(const std::vector<NamedRecipe>& named, const Outcomes& outcomes,
         "{}. The virtual bench at 70 degrees of incidence, 2048 pixels in bins of 5 nm from 380 to "
         "780 nm, automatic exposure, 16 dark frames; its time counts moves, frames, discarded "
         "frames and darks. Root mean square over the rows and {} metals, mean over {} seeds. The "
-        "notes compare the errors with the sigmas that the reduction states.",
+        "notes compare the errors with the sigmas that the reduction states, what all wavelengths "
+        "share included.",
         bench.caption, metals, seeds);
     for (size_t i = 0; i < named.size(); ++i) {
         if (chart.curves.empty() || chart.curves.back().method != named[i].curve) {
@@ -205,12 +214,12 @@ Chart chart_of(const std::vector<NamedRecipe>& named, const Outcomes& outcomes,
 }
 
 BenchResult run(const BenchOptions& options) {
-    const int seeds = options.seeds > 0 ? options.seeds : options.quick ? 2 : 4;
+    const int seeds = options.seeds > 0 ? options.seeds : options.quick ? 2 : 5;
     const size_t metals = options.quick ? 1 : five_metals().size();
     const std::vector<NamedRecipe> named = recipes(options.quick);
     BenchResult result;
     for (const BenchKind& bench : benches()) {
-        const Outcomes outcomes = run_all(named, bench, seeds, metals);
+        const Outcomes outcomes = run_all(named, bench, seeds, metals, options.quiet);
         for (const bool psi : {true, false}) {
             result.charts.push_back(chart_of(named, outcomes, bench, psi, seeds, metals));
         }

@@ -1,5 +1,6 @@
 #include "bench/charts/capture_experiment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -92,14 +93,22 @@ CaptureOutcome capture_outcome(const std::string& set, const VirtualBenchSetting
     outcome.rows = reduction.rows.size();
     const std::vector<double> pixels_nm = VirtualOptics(metal, settings).wavelengths_nm();
     const double share = 1 / static_cast<double>(outcome.rows);
+    const auto with_common = [&](double sigma, const std::vector<double>& common, double angle) {
+        const auto at = std::find(reduction.angles_deg.begin(), reduction.angles_deg.end(), angle);
+        return std::hypot(sigma, common[static_cast<size_t>(at - reduction.angles_deg.begin())]);
+    };
     for (const MeasurementRow& row : reduction.rows) {
+        const double sigma_psi =
+            with_common(row.sigma_psi_deg, reduction.common_sigma_psi_deg, row.angle_deg);
+        const double sigma_delta =
+            with_common(row.sigma_delta_deg, reduction.common_sigma_delta_deg, row.angle_deg);
         const Angles truth = true_angles(metal, pixels_nm, row, recipe.step_nm);
         const double psi_error = row.psi_deg - truth.psi_deg;
         const double delta_error = std::remainder(row.delta_deg - truth.delta_deg, 360.0);
         outcome.psi_error_deg += share * psi_error * psi_error;
         outcome.delta_error_deg += share * delta_error * delta_error;
-        outcome.psi_pull += share * std::pow(psi_error / row.sigma_psi_deg, 2);
-        outcome.delta_pull += share * std::pow(delta_error / row.sigma_delta_deg, 2);
+        outcome.psi_pull += share * std::pow(psi_error / sigma_psi, 2);
+        outcome.delta_pull += share * std::pow(delta_error / sigma_delta, 2);
     }
     for (double* sum : {&outcome.psi_error_deg, &outcome.delta_error_deg, &outcome.psi_pull,
                         &outcome.delta_pull}) {

@@ -17,7 +17,8 @@ struct CaptureOutcome {
     double seconds = 0;                      // by the bench's clock, homing and darks included
     double moving_s = 0, integrating_s = 0;  // parts of it
     double psi_error_deg = 0, delta_error_deg = 0;  // root mean square over the rows
-    // The same over the stated sigmas: 1 where they are right.
+    // The same over the stated sigmas, those that all wavelengths share included: 1 where they are
+    // right.
     double psi_pull = 0, delta_pull = 0;
     size_t rows = 0;
 };

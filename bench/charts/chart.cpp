@@ -98,8 +98,21 @@ std::string chart_svg(const Chart& chart) {
     plot.width = 640;
     plot.height = 400;
     plot.x = {chart.cost, true, {}, {}};
+    double cheapest = std::numeric_limits<double>::infinity(), dearest = 0;
+    for (const ChartCurve& curve : chart.curves) {
+        for (const ChartPoint& p : curve.points) {
+            if (!takes_part(p)) continue;
+            cheapest = std::min(cheapest, p.cost);
+            dearest = std::max(dearest, p.cost);
+        }
+    }
+    if (dearest > 0) {  // room for the rings and bars of the outermost points
+        const double margin = std::pow(dearest / cheapest, 0.03) * 1.01;
+        plot.x.low = cheapest / margin;
+        plot.x.high = dearest * margin;
+    }
     plot.y = {chart.error, true, {}, {}};
-    plot.series.push_back(front_line(chart));
+    if (chart.is_cost) plot.series.push_back(front_line(chart));
     Series rings;
     rings.name = "what is picked by default";
     rings.mark = Mark::rings;
@@ -109,7 +122,7 @@ std::string chart_svg(const Chart& chart) {
     int colour = 0;
     for (const ChartCurve& curve : chart.curves) {
         Series line, points;
-        line.name = curve.method;
+        (curve.joined ? line : points).name = curve.method;
         line.colour = points.colour = colour++ % front_colour;
         line.dashed = colour > front_colour;
         points.mark = Mark::points;
@@ -130,7 +143,7 @@ std::string chart_svg(const Chart& chart) {
         }
         points.x = line.x;
         points.y = line.y;
-        plot.series.push_back(std::move(line));
+        if (curve.joined) plot.series.push_back(std::move(line));
         plot.series.push_back(std::move(points));
     }
     if (!exact.empty()) {
@@ -150,7 +163,8 @@ std::string chart_csv(const Chart& chart) {
         for (const ChartPoint& p : curve.points) {
             text += csv_line({chart.id, curve.method, p.setting, format_double(p.cost),
                               format_double(p.error), format_double(p.error_sigma),
-                              p.automatic ? "1" : "0", is_on_front(chart, p) ? "1" : "0", p.note});
+                              p.automatic ? "1" : "0",
+                              chart.is_cost && is_on_front(chart, p) ? "1" : "0", p.note});
         }
     }
     return text;

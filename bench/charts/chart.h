@@ -18,6 +18,7 @@ struct ChartPoint {
 struct ChartCurve {
     std::string method;
     std::vector<ChartPoint> points;  // in the order the line is drawn
+    bool joined = true;              // by a line; not where each point is another thing
 };
 
 struct Chart {
@@ -26,6 +27,7 @@ struct Chart {
     std::string cost;     // label of the axis with its unit: "processor time (s)"
     std::string error;    // "relative error of S0"
     std::string caption;  // scene, reference, seeds: what a reader needs to make it again
+    bool is_cost = true;  // the x axis; of a parameter there is no front
     std::vector<ChartCurve> curves;
     std::vector<std::string> findings;  // sentences with figures, each computed from the points
 };

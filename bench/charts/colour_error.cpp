@@ -9,27 +9,21 @@ namespace drude {
 
 namespace {
 
-XYZ xyz_at(const TracedPicture& picture, size_t pixel) {
+RGB rgb_at(const TracedPicture& picture, size_t pixel) {
     const double* rgb = picture.at(pixel);
-    return rgb_to_xyz({rgb[0], rgb[1], rgb[2]});
-}
-
-Lab lab_at(const TracedPicture& picture, size_t pixel, const XYZ& white) {
-    XYZ over = xyz_at(picture, pixel);
-    for (size_t i = 0; i < 3; ++i) over[i] /= white[i];
-    return cielab(over);
+    return {rgb[0], rgb[1], rgb[2]};
 }
 
 }  // namespace
 
-double mean_delta_e(const TracedPicture& picture, const TracedPicture& reference,
-                    const XYZ& white) {
+double mean_delta_e(const TracedPicture& picture, const TracedPicture& reference, double white) {
     if (picture.pixels() != reference.pixels()) {
         throw std::logic_error("mean_delta_e: pictures of different sizes");
     }
     double total = 0;
     for (size_t p = 0; p < picture.pixels(); ++p) {
-        total += delta_e_2000(lab_at(picture, p, white), lab_at(reference, p, white));
+        total += delta_e_2000(cielab_of_rgb(rgb_at(picture, p), white),
+                              cielab_of_rgb(rgb_at(reference, p), white));
     }
     return total / static_cast<double>(picture.pixels());
 }
@@ -40,14 +34,15 @@ TracedPicture mean_picture(const ReferencePicture& reference) {
     return mean;
 }
 
-XYZ exposed_white(const TracedPicture& picture, const XYZ& white) {
+double bright_luminance(const TracedPicture& picture) {
     std::vector<double> luminance;
-    for (size_t p = 0; p < picture.pixels(); ++p) luminance.push_back(xyz_at(picture, p)[1]);
+    for (size_t p = 0; p < picture.pixels(); ++p) {
+        luminance.push_back(rgb_to_xyz(rgb_at(picture, p))[1]);
+    }
     const size_t at = static_cast<size_t>(0.99 * static_cast<double>(luminance.size() - 1));
     std::nth_element(luminance.begin(), luminance.begin() + static_cast<std::ptrdiff_t>(at),
                      luminance.end());
-    const double scale = luminance[at] / white[1];
-    return {white[0] * scale, white[1] * scale, white[2] * scale};
+    return luminance[at] / rgb_to_xyz({1, 1, 1})[1];
 }
 
 }  // namespace drude

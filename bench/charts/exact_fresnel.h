@@ -1,5 +1,5 @@
-// Fresnel's amplitudes and Airy's sums in extended precision, straight from the boundary conditions:
-// the reference of the closed forms that everything else uses.
+// Fresnel's amplitudes and Airy's sums in extended precision, straight from the boundary
+// conditions: the reference of the closed forms that everything else uses.
 #pragma once
 
 #include <cmath>
@@ -39,8 +39,8 @@ inline Reflection<Exact> exact_reflection(const ExactAmplitudes& r) {
 // A bare surface; cos_theta in (0, 1].
 inline Reflection<Exact> exact_reflect(Exact n, Exact k, Exact cos_theta) {
     const ExactComplex index(n, k), epsilon = index * index;
-    return exact_reflection(exact_interface(
-        cos_theta, 1, exact_normal_component(epsilon, cos_theta), epsilon));
+    return exact_reflection(
+        exact_interface(cos_theta, 1, exact_normal_component(epsilon, cos_theta), epsilon));
 }
 
 // Coherent films, the first the outermost, at cos_theta in (0, 1]: the field's amplitudes on both

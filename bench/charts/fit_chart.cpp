@@ -188,7 +188,7 @@ BenchTable scene_table(const std::vector<FitRuns>& all) {
 
 BenchResult run(const BenchOptions& options) {
     const int seeds = options.seeds > 0 ? options.seeds : options.quick ? 2 : 3;
-    const std::vector<FitRuns> all = run_fits(options.quick, seeds);
+    const std::vector<FitRuns> all = run_fits(options.quick, seeds, options.quiet);
     BenchResult result;
     for (const std::string varied : {"angles", "wavelengths", "noise"}) {
         result.charts.push_back(constants_chart(all, varied, seeds));

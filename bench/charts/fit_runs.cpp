@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/progress.h"
 #include "bench/charts/experiment.h"
 #include "bench/charts/five_metals.h"
 
@@ -53,7 +54,7 @@ std::vector<FitRuns> make_settings(bool quick) {
     return all;
 }
 
-void run_all(std::vector<FitRuns>* all, int seeds) {
+void run_all(std::vector<FitRuns>* all, int seeds, bool quiet) {
     std::vector<Method> methods;
     for (FitRuns& fitted : *all) {
         fitted.outcomes.resize(static_cast<size_t>(seeds));
@@ -66,7 +67,8 @@ void run_all(std::vector<FitRuns>* all, int seeds) {
                                      return Measured{1, 0};
                                  }}}});
     }
-    run_shuffled(methods, seeds);
+    Progress progress("fits", all->size() * static_cast<size_t>(seeds), quiet);
+    run_shuffled(methods, seeds, 1, [&] { progress.step(); });
 }
 
 // Names of the metals that some seed had no answer for.
@@ -88,9 +90,9 @@ double cost_of(const FitSetting& setting, const std::string& varied) {
 
 }  // namespace
 
-std::vector<FitRuns> run_fits(bool quick, int seeds) {
+std::vector<FitRuns> run_fits(bool quick, int seeds, bool quiet) {
     std::vector<FitRuns> all = make_settings(quick);
-    run_all(&all, seeds);
+    run_all(&all, seeds, quiet);
     return all;
 }
 

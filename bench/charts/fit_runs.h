@@ -25,8 +25,8 @@ struct FitProcedure {
 const std::vector<FitProcedure>& fit_procedures();
 
 // All settings with `seeds` measurements each of the five metals, in shuffled order. `quick` leaves
-// the dispersion formulas out.
-std::vector<FitRuns> run_fits(bool quick, int seeds);
+// the dispersion formulas out, `quiet` the progress.
+std::vector<FitRuns> run_fits(bool quick, int seeds, bool quiet);
 
 using FitFigure = std::function<double(const FitOutcome&)>;
 double fit_constants_error(const FitOutcome& outcome);

@@ -45,7 +45,7 @@ struct Experiment {
     double loop_ns = 0, full_ns = 0;
 };
 
-Experiment experiment(int runs, const std::function<void()>& step) {
+Experiment experiment(int runs) {
     Experiment e;
     for (const NamedMetal& metal : five_metals()) {
         e.metals.push_back(dense(published_set(metal.set)));
@@ -74,7 +74,7 @@ Experiment experiment(int runs, const std::function<void()>& step) {
     }
     add([&](uint64_t s) { return fresnel_loop_ns(e.metals[metal_of(s)], FresnelInputs(s)); });
     add([&](uint64_t s) { return full_reflection_ns(e.metals[metal_of(s)], FresnelInputs(s)); });
-    const std::vector<ChartCurve> curves = run_shuffled(timed, runs, 1, step);
+    const std::vector<ChartCurve> curves = run_shuffled(timed, runs);
     size_t next = 0;
     const auto cost = [&] { return curves[next++].points[0].cost; };
     for (size_t m = 0; m < count; ++m) {
@@ -221,7 +221,7 @@ BenchTable metal_table(const Experiment& e) {
 
 BenchResult run(const BenchOptions& options) {
     const int runs = options.seeds > 0 ? options.seeds : options.quick ? 15 : 101;
-    const Experiment e = experiment(runs, {});
+    const Experiment e = experiment(runs);
     return {{reflectance_chart(e, runs), psi_chart(e, runs), picture_chart(e, runs)},
             {},
             {metal_table(e)}};

@@ -13,7 +13,8 @@ namespace drude {
 // `count` >= 2 values from `first` to `last`, both > 0, in equal ratios.
 inline std::vector<double> log_steps(double first, double last, int count) {
     std::vector<double> steps(static_cast<size_t>(count));
-    for (int i = 0; i < count; ++i) steps[i] = first * std::pow(last / first, 1.0 * i / (count - 1));
+    for (int i = 0; i < count; ++i)
+        steps[i] = first * std::pow(last / first, 1.0 * i / (count - 1));
     return steps;
 }
 

@@ -14,13 +14,9 @@ double rgb_colour_error(const DenseIndex& metal, RgbMetal way, const ChartIllumi
     std::vector<double> cosines;
     for (int i = 0; i < angles; ++i) cosines.push_back(std::sqrt((i + 0.5) / angles));
     const std::vector<RGB> channels = rgb_reflectances(metal, way, cosines);
-    const XYZ white = light.white();
-    const RGB colour = xyz_to_rgb(white);
+    const RGB colour = xyz_to_rgb(light.white());
     const double luminance = spectrum_to_xyz(light.spectrum)[1];
-    const auto lab = [&](XYZ xyz) {
-        for (size_t c = 0; c < 3; ++c) xyz[c] /= white[c];
-        return cielab(xyz);
-    };
+    const double bright = 1 / rgb_to_xyz({1, 1, 1})[1];
     double total = 0;
     for (int a = 0; a < angles; ++a) {
         DenseSpectrum seen = reflectance_spectrum(metal, cosines[a]);
@@ -29,7 +25,8 @@ double rgb_colour_error(const DenseIndex& metal, RgbMetal way, const ChartIllumi
         }
         RGB rgb = colour;
         for (size_t c = 0; c < 3; ++c) rgb[c] *= std::pow(channels[a][c], times);
-        total += delta_e_2000(lab(spectrum_to_xyz(seen)), lab(rgb_to_xyz(rgb)));
+        total += delta_e_2000(cielab_of_rgb(xyz_to_rgb(spectrum_to_xyz(seen)), bright),
+                              cielab_of_rgb(rgb, bright));
     }
     return total / angles;
 }
@@ -40,7 +37,7 @@ BenchTable rgb_error_table() {
     table.caption =
         "Metals in three channels: CIEDE2000 of the light that a mirror sends on after one "
         "reflection / after three at the same angle, mean over the visible half of a sphere; white "
-        "is the light.";
+        "is that of sRGB, of the light's luminance.";
     table.columns = {"metal", "light"};
     for (const RgbMetal way : all_rgb_metals) {
         table.columns.push_back(std::string(rgb_metal_name(way)));

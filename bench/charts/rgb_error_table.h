@@ -9,7 +9,7 @@ namespace drude {
 
 // The mean over a sphere's visible half (cos_theta^2 uniform) of CIEDE2000 between light that a
 // mirror of the metal reflects `times` times at one angle, and what the channels make of it. White
-// is the light itself.
+// is that of sRGB, of the light's luminance.
 double rgb_colour_error(const DenseIndex& metal, RgbMetal way, const ChartIlluminant& light,
                         int times);
 

@@ -72,8 +72,8 @@ const std::string groove = "\"string lobe\" \"blinn-phong\" \"string masking\" \
 std::vector<Subject> subjects(bool quick) {
     const auto pick = [quick](int a, int b) { return quick ? a : b; };
     const std::vector<int> samples =
-        quick ? std::vector<int>{16, 64} : std::vector<int>{16, 32, 64, 128, 256};
-    const int size = pick(16, 40), box = pick(8, 20), reference = pick(1024, 16384);
+        quick ? std::vector<int>{16, 64} : std::vector<int>{16, 64, 256};
+    const int size = pick(16, 32), box = pick(8, 16), reference = pick(1024, 8192);
     const auto dome = [size](const std::string& material) {
         return half_sphere_in_courtyard(size, size, material);
     };
@@ -93,7 +93,7 @@ std::vector<Subject> subjects(bool quick) {
                    dome(copper(0.2, smith)), ways_of_points(), samples, reference, true});
     all.push_back({"points-box", "points: a closed box of metals",
                    chart_scene("cornell-metals", box, box), ways_of_points(), samples,
-                   pick(512, 4096), true});
+                   pick(512, 2048), true});
     return all;
 }
 
@@ -181,7 +181,7 @@ void add_findings(const Subject& subject, Experiment* e) {
                         subject.ways[i].name, over_samples.points.back().error,
                         subject.samples.back(), log_slope(over_samples));
         if (subject.ways[i].name != usual_name) {
-            text += fmt::format("; takes {:.2f} times the time of {} for its error",
+            text += fmt::format("; takes {:.3g} times the time of {} for its error",
                                 time_ratio(e->over_time[i], best), usual_name);
         } else {
             text += ", the usual way";
@@ -205,7 +205,7 @@ void add_rows(const Subject& subject, const Experiment& e, BenchTable* table) {
 
 BenchResult run(const BenchOptions& options) {
     const std::vector<Subject> all = subjects(options.quick);
-    const int seeds = options.seeds > 0 ? options.seeds : (options.quick ? 2 : 5);
+    const int seeds = options.seeds > 0 ? options.seeds : (options.quick ? 2 : 4);
     size_t steps = 0;
     for (const Subject& s : all) {
         steps += 1 + s.ways.size() * s.samples.size() * static_cast<size_t>(seeds);

@@ -4,18 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "materials/quadrature.h"
+
 namespace drude {
 
 namespace {
 
 constexpr int panels = 48, azimuths = 128, smith_nodes = 1024;
-
-// Of Gauss and Legendre on [-1, 1], 5 points.
-constexpr std::array<double, 5> gauss_at = {-0.90617984593866399, -0.53846931010568309, 0,
-                                            0.53846931010568309, 0.90617984593866399};
-constexpr std::array<double, 5> gauss_weight = {0.23692688505618909, 0.47862867049936647,
-                                                0.56888888888888889, 0.47862867049936647,
-                                                0.23692688505618909};
 
 // Middles of even steps over half a turn.
 struct Azimuths {
@@ -49,9 +44,10 @@ ShadowedLobe::ShadowedLobe(Lobe lobe, Masking masking, double beta)
     : masking_(masking), beta_(beta), scale_(std::tan(std::min(beta, 1.2))) {
     const LobeDensity<double> D(lobe, beta);
     // tan = scale s/(1 - s): as many nodes within the lobe as in its tail, up to the horizon.
+    const QuadratureRule rule = gauss_legendre(5);
     for (int panel = 0; panel < panels; ++panel) {
-        for (size_t j = 0; j < gauss_at.size(); ++j) {
-            const double s = (panel + 0.5 + 0.5 * gauss_at[j]) / panels;
+        for (size_t j = 0; j < rule.x.size(); ++j) {
+            const double s = (panel + 0.5 + 0.5 * rule.x[j]) / panels;
             const double tangent = scale_ * s / (1 - s);
             const double cosine = 1 / std::sqrt(1 + tangent * tangent);
             const double sine = tangent * cosine;
@@ -59,7 +55,7 @@ ShadowedLobe::ShadowedLobe(Lobe lobe, Masking masking, double beta)
             const double step = cosine * cosine * scale_ / ((1 - s) * (1 - s));
             nodes_.push_back(
                 {cosine, sine,
-                 2 * pi * D(tangent * tangent) * sine * step * 0.5 * gauss_weight[j] / panels});
+                 2 * pi * D(tangent * tangent) * sine * step * 0.5 * rule.weight[j] / panels});
         }
     }
     for (int k = 1; k <= smith_nodes; ++k) {

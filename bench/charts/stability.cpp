@@ -12,6 +12,14 @@
 
 namespace drude {
 
+namespace {
+
+std::string value_of(const MapAxis& axis, size_t i) {
+    return axis.names.empty() ? fmt::format("{:.6g}", axis.at[i]) : axis.names[i];
+}
+
+}  // namespace
+
 MapVerdict judge(const StabilityMap& map) {
     if (map.cells.size() != map.x.at.size() * map.y.at.size()) {
         throw std::invalid_argument("judge: cells and grid differ in " + map.id);
@@ -30,8 +38,8 @@ MapVerdict judge(const StabilityMap& map) {
             if (cell.inside && !cell.refused &&
                 (error > verdict.worst_inside || verdict.worst_at.empty())) {
                 verdict.worst_inside = error;
-                verdict.worst_at = fmt::format("{} {:.6g}, {} {:.6g}", map.x.label, map.x.at[ix],
-                                               map.y.label, map.y.at[iy]);
+                verdict.worst_at = fmt::format("{} {}, {} {}", map.x.label, value_of(map.x, ix),
+                                               map.y.label, value_of(map.y, iy));
             }
         }
     }
@@ -47,6 +55,8 @@ std::string map_svg(const StabilityMap& map) {
     drawing.y = map.y.label;
     drawing.at_x = map.x.at;
     drawing.at_y = map.y.at;
+    drawing.names_x = map.x.names;
+    drawing.names_y = map.y.names;
     drawing.value = map.error;
     drawing.bound = map.bound;
     bool refused = false, outside = false;

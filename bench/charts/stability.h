@@ -7,8 +7,9 @@
 namespace drude {
 
 struct MapAxis {
-    std::string label;       // with its unit
-    std::vector<double> at;  // ascending; the cells' parameters
+    std::string label;                    // with its unit
+    std::vector<double> at;               // ascending; the cells' parameters
+    std::vector<std::string> names = {};  // of kinds that are only numbered in `at`; else empty
 };
 
 // What happened in one cell.

@@ -33,9 +33,8 @@ constexpr Metal metals[] = {{"copper", 1.030, 2.460}, {"galvanised", 3.708, 4.72
                             {"steel", 2.400, 3.699},  {"aluminium", .875, 6.233},
                             {"gold", .549, 1.810},    {"silver", .290, 3.040},
                             {"silver", .050, 3.085}};
-constexpr const char* metal_axis =
-    "metal (1 Cu, 2 galvanised, 3 steel, 4 Al, 5 Au, 6 Ag, 7 Ag of Johnson)";
-const std::vector<double> metal_numbers{1, 2, 3, 4, 5, 6, 7};
+const MapAxis metal_axis{
+    "metal", {1, 2, 3, 4, 5, 6, 7}, {"Cu", "galvanised", "steel", "Al", "Au", "Ag", "Ag, Johnson"}};
 const std::vector<double> paper_angles{45, 50, 60, 70, 75, 80};
 
 Material bulk(double n, double k) {
@@ -146,7 +145,7 @@ StabilityMap noise_map(const std::string& estimator, int resolution, int seeds) 
         fit_map("fits-noise-" + estimator, fmt::format("Noise and metals, {}", estimator), seeds);
     map.caption += " Six angles from 45 to 80 degrees.";
     map.x = {"noise over 0.05 and 0.1 degrees", log_steps(1e-3, 100, resolution)};
-    map.y = {metal_axis, metal_numbers};
+    map.y = metal_axis;
     map.domain = domain_in_words(estimator);
     fill_map(&map, [&](double x, double y) {
         const Metal& metal = metals[static_cast<int>(y) - 1];
@@ -161,7 +160,7 @@ StabilityMap angle_map(const std::string& estimator, int resolution, int seeds) 
                                fmt::format("Angles of incidence, {}", estimator), seeds);
     map.caption += " Four angles, 5 degrees apart where there is room, up to the one of the axis.";
     map.x = {"largest angle of incidence (degrees)", even_steps(5, 85, resolution)};
-    map.y = {metal_axis, metal_numbers};
+    map.y = metal_axis;
     map.domain = domain_in_words(estimator);
     fill_map(&map, [&](double x, double y) {
         const Metal& metal = metals[static_cast<int>(y) - 1];

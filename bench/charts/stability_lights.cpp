@@ -133,9 +133,8 @@ BenchItem light_stability_item() {
             "light sampling of a sky with one bright texel against the closed form",
             [](const BenchOptions& options) {
                 BenchResult result;
-                result.maps = options.quick
-                                  ? light_maps({8, 64, 512}, 4, 4096)
-                                  : light_maps({8, 16, 64, 256, 1024, 2048}, 9, 65536);
+                result.maps = options.quick ? light_maps({8, 64, 512}, 4, 4096)
+                                            : light_maps({8, 16, 64, 256, 1024, 2048}, 9, 65536);
                 return result;
             }};
 }

@@ -174,7 +174,7 @@ StabilityMap norm_map(int resolution) {
     map.outside = "below: a mirror, as --explain says; above: refused with the range";
     map.caption = "D of floats, integrated in double over the tangent from 1e-4 to 1e5 times beta.";
     map.x = {"beta", log_steps(1e-6, 1.5, resolution)};
-    map.y = {"lobe (1 Blinn-Phong, 2 Gaussian, 3 Beckmann, 4 Trowbridge-Reitz)", {1, 2, 3, 4}};
+    map.y = {"lobe", {1, 2, 3, 4}, {"Blinn-Phong", "Gaussian", "Beckmann", "Trowbridge-Reitz"}};
     fill_map(&map, [&](double x, double y) {
         MapCell cell;
         cell.inside = x >= mirror_below_beta && x <= largest_beta;

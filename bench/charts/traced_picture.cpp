@@ -50,8 +50,10 @@ TracedScene::TracedScene(Scene scene, const SamplingStrategy& strategy)
       filter_(scene_.filter) {}
 
 TracerSetup TracedScene::setup(uint64_t seed, const ColourMatching& observer) const {
-    return {scene_,  geometry_, lights_,          elements_, numbers_,  camera_,
-            filter_, seed,      scene_.max_depth, 0,         strategy_, &observer};
+    TracerSetup setup{scene_,  geometry_, lights_,          elements_, numbers_, camera_,
+                      filter_, seed,      scene_.max_depth, 0,         strategy_};
+    setup.observer = &observer;
+    return setup;
 }
 
 TracedPicture trace_picture(const BatchTracer& tracer, const Film& film, int rows, int samples,

@@ -34,28 +34,28 @@ struct Subject {
 std::vector<Subject> subjects(bool quick) {
     const auto pick = [quick](int a, int b) { return quick ? a : b; };
     const std::vector<int> many =
-        quick ? std::vector<int>{16, 64} : std::vector<int>{16, 64, 256, 1024};
+        quick ? std::vector<int>{16, 64} : std::vector<int>{16, 64, 256, 512};
     const std::vector<int> few = quick ? std::vector<int>{16, 64} : std::vector<int>{16, 64, 256};
-    const int size = pick(20, 48);
+    const int size = pick(20, 40);
     const auto half_sphere = [size] {
         return half_sphere_in_courtyard(
             size, size,
             "Material \"conductor\" \"string material\" \"Cu\" \"string lobe\" "
             "\"trowbridge-reitz\" \"string masking\" \"v-groove\" \"float beta\" 0.2");
     };
-    const int seeds = pick(2, 4);
+    const int seeds = pick(2, 3);
     std::vector<Subject> all;
     all.push_back({"half-sphere", "a copper half-sphere in the courtyard", half_sphere(), many,
-                   pick(512, 8192), seeds});
+                   pick(512, 4096), seeds});
     all.push_back({"teapot-plaster", "a gold teapot on plaster", teapot_on_plaster(size, size),
-                   many, pick(256, 4096), seeds});
+                   many, pick(256, 2048), seeds});
     all.push_back({"teapot-metal", "a gold teapot on rough aluminium", teapot_on_metal(size, size),
-                   few, pick(256, 4096), seeds});
+                   few, pick(256, 2048), seeds});
     all.push_back({"box", "a closed box of metals",
-                   chart_scene("cornell-metals", pick(10, 32), pick(10, 32)), few, pick(256, 2048),
+                   chart_scene("cornell-metals", pick(10, 24), pick(10, 24)), few, pick(256, 2048),
                    seeds});
     all.push_back({"polarisers", "pairs of polarisers before a panel",
-                   chart_scene("crossed-polarisers", size, size * 3 / 4), many, pick(512, 8192),
+                   chart_scene("crossed-polarisers", size, size * 3 / 4), many, pick(512, 4096),
                    seeds});
     return all;
 }
@@ -136,7 +136,7 @@ void add_findings(const Figures& f, Chart* chart) {
     }
     // Noise falls as one over the root of the samples; here it meets the bias.
     chart->findings.push_back(
-        fmt::format("Pixels are off by {:.2g} % (root mean square), as much as the noise of {:.2g} "
+        fmt::format("Pixels are off by {:.3g} % (root mean square), as much as the noise of {:.2g} "
                     "samples a pixel.",
                     100 * bias.rms, f.most * std::pow(f.error[1] / bias.rms, 2)));
 }
@@ -187,7 +187,7 @@ std::vector<std::vector<std::string>> rows_of_table(const Subject& subject, cons
                         fmt::format("{:.2f}", f.cost[t] / f.cost[0]),
                         fmt::format("{:.3g}", f.error[t]),
                         bias.is_exact() ? "0" : signed_percent(bias.mean, bias.sigma),
-                        fmt::format("{:.2g}", bias.is_exact() ? 0 : 100 * bias.rms), stokes});
+                        fmt::format("{:.3g}", bias.is_exact() ? 0 : 100 * bias.rms), stokes});
     }
     return rows;
 }

@@ -187,6 +187,12 @@ JournalReduction reduce_journal(const Journal& journal, const JournalReductionOp
             "add to Psi and Delta is in no standard deviation; capture --kind straight-through, "
             "then --kind azimuth, and reduce the journal again with --calibration");
     }
+    if (result.noise.light_readings == 0) {
+        result.warnings.emplace_back(
+            "one frame a step and no two steps half a turn apart: nothing tells the noise of the "
+            "light, and the standard deviations hold that of the dark alone, which is several "
+            "times less; measure with 2 frames a step or more, or with an even number of steps");
+    }
     result.reduction = reduce_scans(scans, from.spectrometer, options.calibration, reduction);
     const auto& own = result.reduction.warnings;
     result.warnings.insert(result.warnings.end(), own.begin(), own.end());

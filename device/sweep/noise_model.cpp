@@ -35,6 +35,8 @@ class SignalClasses {
         ++readings_;
     }
 
+    size_t readings() const { return readings_; }
+
     // The non-negative coefficients of 1, net and net^2 with the least weighted residual: with
     // three of them every set of those above zero can be tried.
     NoiseModel fit() const {
@@ -184,6 +186,7 @@ NoiseModel fit(const Journal& journal, Wanted wanted) {
         }
         darks.emplace(dark.block, std::move(s.mean));
     }
+    const size_t dark_readings = all.readings();
     std::map<std::pair<uint32_t, double>, const JournalPoint*> single;
     for (const JournalPoint& point : journal.points) {
         const PlanPoint& plan = journal.plan[point.index];
@@ -199,7 +202,9 @@ NoiseModel fit(const Journal& journal, Wanted wanted) {
         }
         single[{plan.scan, plan.polariser_deg}] = &point;
     }
-    return all.fit();
+    NoiseModel model = all.fit();
+    model.light_readings = all.readings() - dark_readings;
+    return model;
 }
 
 }  // namespace

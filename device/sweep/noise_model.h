@@ -13,6 +13,9 @@ namespace drude {
 struct NoiseModel {
     double read = 0, photon = 0, relative = 0;
     size_t readings = 0;  // pixels of settings that it was fitted to
+    // Those of them with light. 0: nothing is known of the noise of light, and variance() is that
+    // of the dark alone.
+    size_t light_readings = 0;
 
     // Never below the 1/12 of rounding to whole counts.
     double variance(double net_counts) const;
@@ -25,7 +28,8 @@ struct NoiseModel {
 // With one frame a point, the two points of a scan half a turn apart stand for two frames: the
 // polariser is the same there, and what else differs between them (drift, eccentricity) goes
 // smoothly with wavelength, so that the difference of the differences of neighbouring pixels, a
-// quarter of its square, is the noise alone. `readings` counts the dark only where there are none.
+// quarter of its square, is the noise alone. Where there are none, as with an odd number of steps,
+// `light_readings` is 0.
 NoiseModel fit_noise_model(const Journal& journal);
 
 // Of the points and darks of one group only: the noise of the dark current grows with the

@@ -18,7 +18,9 @@
 #include "cli/fit_output.h"
 #include "cli/fit_paper.h"
 #include "cli/fit_statistics.h"
+#include "fitter/angle_choice.h"
 #include "fitter/common_error.h"
+#include "fitter/decisions.h"
 #include "fitter/fitted_material.h"
 #include "fitter/import.h"
 #include "fitter/lobe_fit.h"
@@ -35,8 +37,8 @@ struct FitCommandOptions {
     std::string substrate, film_material = "Al2O3-Malitson-o", porosity = "fit";
     double largest_thickness_nm = 10000, bandwidth_nm = 0;
     std::string spread, roughness;
-    bool angle_offset = false, unweighted = false;
-    std::string range;
+    bool angle_offset = false, unweighted = false, explain = false;
+    std::string range, angles;
     std::string lobe_scan, constants;
     PaperCommandOptions paper;
     std::string name, output;
@@ -162,10 +164,11 @@ void check_combination(const FitCommandOptions& options, const OptionSet& given)
     }
     check_fit_statistics(options.statistics, given, !options.measurement.empty());
     if (options.measurement.empty()) {
-        refuse_options(given,
-                       {"--estimator", "--model", "--dispersion", "--overlayer", "--substrate",
-                        "--roughness", "--angle-offset", "--range", "--unweighted", "--format"},
-                       "belongs to a fit of n and k to a measurement");
+        refuse_options(
+            given,
+            {"--estimator", "--model", "--dispersion", "--overlayer", "--substrate", "--roughness",
+             "--angle-offset", "--range", "--angles", "--unweighted", "--explain", "--format"},
+            "belongs to a fit of n and k to a measurement");
         refuse_options(given, film_only, "belongs to a fit of n and k to a measurement");
     }
     if (options.model == "auto" && options.substrate.empty()) {
@@ -234,6 +237,9 @@ int run_fit(const FitCommandOptions& options, const OptionSet& given, const Comm
     report.options = make_fit_options(options, common);
     // With a lobe scan the question has an answer.
     if (!options.lobe_scan.empty()) report.options.lobe.clear();
+    if (!options.angles.empty()) {
+        report.measurement = at_angles(report.measurement, parse_grid(options.angles, "--angles"));
+    }
     weigh_by_common_error(&report);
     report.fit = fit_measurement(report.measurement, report.options);
     std::vector<std::string> imported = import_warnings(report.measurement);
@@ -244,7 +250,18 @@ int run_fit(const FitCommandOptions& options, const OptionSet& given, const Comm
             "deviation, here neither ('drude help capture')");
     }
     report.fit.warnings.insert(report.fit.warnings.begin(), imported.begin(), imported.end());
+    // What "auto" took is what bootstrap and profiles go on with.
+    const FitOptions asked = report.options;
+    if (report.options.robust == "auto") {
+        report.options.robust = report.fit.robust.empty() ? "none" : report.fit.robust;
+    }
     run_fit_statistics(options.statistics, &report);
+    if (options.explain) {
+        report.decisions = decisions(
+            report.measurement, asked, report.fit,
+            report.literature ? report.substrates
+                              : other_substrates(report.measurement, report.options, report.fit));
+    }
     Material material = fitted_material(report.fit, report.measurement, options.name,
                                         provenance_of(options.measurement, text, common));
     report.name = material.name;
@@ -308,10 +325,14 @@ Command fit_command() {
         "overlayer: drude, drude+2cp (free electrons and two critical points), drude+3lorentz, "
         "cauchy, sellmeier or 2sellmeier, bruggeman:A,B (a mixture of two materials), spline:N "
         "(a cubic spline of N intervals as the absorption and its Kramers-Kronig transform). "
+        "auto takes compact where it holds, otherwise every wavelength by itself; "
         "compact is the smallest of drude, drude+cp and drude+2cp that the data need, spline "
         "chooses its intervals so; what was tried is printed. A formula that is too small shows "
         "in the reduced chi-square: without one every wavelength stands for itself, which is "
         "never wrong.\n\n"
+        "--explain says what was chosen, or would be by auto, with its reason, cost and error: "
+        "model, formula, angles (which carry what is known, and how few would do), estimator, "
+        "robust loss, substrate, search (docs/decisions.md).\n\n"
         "A material is a set (drude materials), a material file, n,k, or a Cauchy formula "
         "cauchy:A,B,C in micrometres. --angle-offset takes a common error of the angles of "
         "incidence as one more parameter and needs three angles.\n\n"
@@ -324,7 +345,8 @@ Command fit_command() {
         "differences over the wavelengths that each set covers; a film is fitted again on other "
         "published sets of its substrate. --robust lets rows far from the "
         "model count less (huber, cauchy, tukey; constants 1.345, 2.385 and 4.685 standard "
-        "deviations); huber withstands a few bad rows, tukey grosser ones. --profile finds where "
+        "deviations); auto takes tukey where rows are further off than noise brings; huber "
+        "withstands a few bad rows, tukey grosser ones. --profile finds where "
         "chi-square, smallest over all other parameters, rises by 1 and by 3.84 on either side of "
         "every parameter, or that it never does (open); not with "
         "--dispersion, --robust or the inversion, which the bootstrap takes. --bootstrap draws "
@@ -360,8 +382,9 @@ Command fit_command() {
         options.positional("MEASUREMENT", values->measurement, "CSV or a vendor's export", false);
         options.choice("--estimator", values->estimator, estimator_names(), "what is minimised");
         options.choice("--model", values->model, fit_model_names(), "the sample's structure");
-        options.option("--dispersion", values->dispersion,
-                       "FORMULA of n and k over the wavelengths: compact, drude+2cp, cauchy, ...");
+        options.option(
+            "--dispersion", values->dispersion,
+            "FORMULA of n and k over the wavelengths: auto, compact, drude+2cp, cauchy, ...");
         options.option("--overlayer", values->overlayers,
                        "MATERIAL,NM: a known layer on what is fitted; repeats");
         options.option("--substrate", values->substrate, "MATERIAL below a fitted film");
@@ -378,6 +401,11 @@ Command fit_command() {
         options.flag("--angle-offset", values->angle_offset,
                      "fit a common error of the angles of incidence");
         options.option("--range", values->range, "A:B: only wavelengths from A to B nm");
+        options.option("--angles", values->angles,
+                       "LIST in degrees: only rows at these angles of incidence");
+        options.flag("--explain", values->explain,
+                     "say what was chosen automatically, why, its cost and error, and what "
+                     "overrides it");
         options.flag("--unweighted", values->unweighted,
                      "every row counts alike; sigmas from the residuals");
         declare_fit_statistics(options, &values->statistics);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/numbers.h"
+#include "cli/decision_output.h"
 #include "cli/fit_statistics_output.h"
 #include "cli/json_output.h"
 
@@ -197,6 +198,7 @@ void print_fit_json(const FitReport& report, const Material& material, const std
         document["rival"] = {{"thickness_nm", fit.rival_thickness_nm},
                              {"chi2_excess", fit.rival_chi2_excess}};
     }
+    if (!report.decisions.empty()) document["decisions"] = decisions_json(report.decisions);
     add_statistics(report, &document);
     if (lobes) add_lobes(*lobes, &document);
     document["output"] = output.empty() ? ordered_json(nullptr) : ordered_json(output);
@@ -240,6 +242,7 @@ void print_fit_text(const FitReport& report, bool with_table) {
     }
     print_common_errors(report.common_errors);
     print_statistics(report, with_table);
+    print_decisions(report.decisions);
 }
 
 void print_lobe_json(const LobeFitResult& lobes, const Material& material,

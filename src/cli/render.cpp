@@ -17,8 +17,10 @@
 #include "base/numbers.h"
 #include "base/sha256.h"
 #include "cli/command_list.h"
+#include "cli/decision_output.h"
 #include "cli/json_output.h"
 #include "cli/scene_description.h"
+#include "render/decisions.h"
 #include "render/environment_choice.h"
 #include "render/film_checkpoint.h"
 #include "render/film_partial.h"
@@ -33,11 +35,12 @@ namespace {
 
 struct Options {
     std::string scene, output, transport = "auto", environment, resolution, isa, shard, analyser;
+    std::string films = "auto";
     int samples = 0, wavelengths = 0, max_depth = -1;
-    double time = 0, error = 0, checkpoint = 0;
+    double time = 0, error = 0, checkpoint = 0, mirror_below = 0;
     uint64_t seed = 0;
     bool spectral = false, stokes = false, dry_run = false, resume = false, allow_mixed = false;
-    bool strict = false;
+    bool strict = false, explain = false, every_light = false, every_ray = false;
 };
 
 // "i/n", counted from 0.
@@ -78,6 +81,11 @@ RenderOptions options_for(const Options& options, const Film& film, const Option
     result.stokes = options.stokes;
     result.spectral = options.spectral || film.spectral;
     result.wavelengths = options.wavelengths;
+    if (options.films == "keep") result.films = FilmUse::keep;
+    if (options.films == "leave-out") result.films = FilmUse::leave_out;
+    if (given.given("--mirror-below")) result.mirror_below = options.mirror_below;
+    result.sample_every_light = options.every_light;
+    result.trace_every_ray = options.every_ray;
     result.threads = common.threads;
     result.quiet = common.quiet || (ranks && ranks->rank() != 0);
     result.isa = options.isa;
@@ -99,7 +107,7 @@ RenderOptions options_for(const Options& options, const Film& film, const Option
 // checkpoint alone, an interrupted picture its file too where every pixel holds samples.
 void write_and_report(const Options& options, const RenderOptions& render_options,
                       const CommonOptions& common, std::chrono::steady_clock::time_point start,
-                      RenderedFilm* film) {
+                      const std::vector<ModelDecision>& explained, RenderedFilm* film) {
     RenderSummary& summary = film->summary;
     const std::vector<std::string> more = count_warnings(film->part.counts, summary.plugins);
     summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
@@ -134,6 +142,7 @@ void write_and_report(const Options& options, const RenderOptions& render_option
             {"interrupted", summary.interrupted},
             {"warnings", summary.warnings}};
         json["error"] = summary.error ? nlohmann::json(*summary.error) : nlohmann::json();
+        if (options.explain) json["decisions"] = decisions_json(explained);
         print_json_document(json);
         return;
     }
@@ -145,6 +154,7 @@ void write_and_report(const Options& options, const RenderOptions& render_option
         render_options.ranks ? fmt::format(" of {} processes", render_options.ranks->size()) : "");
     if (summary.error) fmt::print("estimated relative error {:.3g}\n", *summary.error);
     if (is_shard) fmt::print("shard {}; drude merge joins all of them\n", options.shard);
+    if (options.explain) return print_decisions(explained);
     fmt::print("transport {}: {}\n", transport_name(summary.transport), summary.transport_reason);
 }
 
@@ -164,6 +174,27 @@ int say_interrupted(const Options& options, const RenderOptions& render_options,
     }
     fmt::print(stderr, "drude: {}\n", text);
     return 128 + (interrupted() ? interrupted() : SIGTERM);
+}
+
+// What --dry-run says in place of a picture.
+int describe(const Scene& scene, const Options& options, const OptionSet& given,
+             const CommonOptions& common) {
+    std::vector<ModelDecision> explained;
+    if (options.explain) {
+        explained = decisions(scene, options_for(options, scene.film, given, common, nullptr));
+    }
+    if (common.json) {
+        nlohmann::json json = {{"scene", scene.file},          {"width", scene.film.width},
+                               {"height", scene.film.height},  {"spp", scene.samples_per_pixel},
+                               {"max_depth", scene.max_depth}, {"scene_sha256", scene.sha256},
+                               {"warnings", scene.warnings}};
+        if (options.explain) json["decisions"] = decisions_json(explained);
+        print_json_document(json);
+        return 0;
+    }
+    fmt::print("{}", describe_scene(scene));
+    if (options.explain) print_decisions(explained);
+    return 0;
 }
 
 int run(const Options& options, const OptionSet& given, const CommonOptions& common) {
@@ -201,12 +232,13 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
         }
         // Pictures that cannot be read are found here, and not after an hour.
         const NumberTextures textures(scene);
-        fmt::print("{}", describe_scene(scene));
-        return 0;
+        return describe(scene, options, given, common);
     }
 
     const std::unique_ptr<const Ranks> ranks = mpi_ranks();
     RenderOptions render_options = options_for(options, scene.film, given, common, ranks.get());
+    const std::vector<ModelDecision> explained =
+        options.explain ? decisions(scene, render_options) : std::vector<ModelDecision>{};
     render_options.lights_are_built = [&scene] {
         for (InfiniteLight& light : scene.infinite_lights) light.picture.reset();
     };
@@ -222,7 +254,7 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
     }
     if (ranks) gather_films(*ranks, options.allow_mixed, &film);
     if (!ranks || ranks->rank() == 0) {
-        write_and_report(options, render_options, common, start, &film);
+        write_and_report(options, render_options, common, start, explained, &film);
     }
     // Only now: what is killed before finds its checkpoint again.
     if (ranks) ranks->finish();
@@ -244,6 +276,9 @@ Command render_command() {
         "--transport auto carries as little polarisation along a path as is provably exact for the "
         "scene and the layers asked for, and says which and why. The same seed gives the same bits "
         "on any number of threads.\n\n"
+        "What is chosen by itself, from the transport to films too thin to be seen, is said by "
+        "--explain, each with its reason, its cost and error, and the option that overrides it "
+        "(docs/decisions.md).\n\n"
         "--environment FILE puts another picture around the scene (lat-long or equal-area; "
         "'courtyard' is made by the program).\n\n"
         "Material \"NAME\" of a scene may be a plugin: NAME.so in a folder of the environment "
@@ -273,7 +308,7 @@ Command render_command() {
         "drude render scene.pbrt --shard 0/2 -o part-0.exr\n"
         "drude render scene.pbrt --spp 4096 -o OUT.exr --resume\n"
         "mpirun -n 2 drude render scene.pbrt -o OUT.exr\n"
-        "drude render scene.pbrt --dry-run";
+        "drude render scene.pbrt --dry-run --explain";
     command.declare = [](OptionSet& set, const CommonOptions& common) {
         const auto options = std::make_shared<Options>();
         set.positional("SCENE", options->scene, "a pbrt-v4 scene file", true);
@@ -304,6 +339,18 @@ Command render_command() {
                    "ANGLE[,retarder=FAST[:RETARDANCE]] in degrees: a filter before the camera");
         set.flag("--strict", options->strict,
                  "an error, not a warning, where pbrt-v4 would draw something else");
+        set.option("--mirror-below", options->mirror_below,
+                   "lobes of a smaller beta (or alpha) are mirrors; 0: never (default: 1e-5, 0 "
+                   "under distant, point and spot lights)");
+        set.choice("--films", options->films, {"auto", "keep", "leave-out"},
+                   "films on metals (default auto: where leaving them out would show)");
+        set.flag("--sample-every-light", options->every_light,
+                 "look for constant skies too, which lobes find by themselves");
+        set.flag("--every-ray", options->every_ray,
+                 "trace also rays that are known to meet nothing");
+        set.flag("--explain", options->explain,
+                 "say what was chosen automatically, why, its cost and error, and what overrides "
+                 "it; with --dry-run without rendering");
         set.flag("--dry-run", options->dry_run, "read, check and describe the scene only");
         OptionSet* given = &set;
         return [options, given, &common] { return run(*options, *given, common); };

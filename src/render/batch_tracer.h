@@ -1,12 +1,14 @@
 // One batch of samples of one pixel: what the driver asks of a transport and a packet width.
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "render/geometry.h"
 #include "render/lights.h"
 #include "render/path.h"
 #include "render/pixel_filter.h"
+#include "render/surface_model.h"
 
 namespace drude {
 
@@ -46,6 +48,9 @@ struct TracerSetup {
     int max_depth;
     int threads = 0;                 // for tables that take a while
     SamplingStrategy strategy = {};  // of `lights` too
+    SurfaceModel surfaces = {};
+    // See BounceChoice::clear_after.
+    int clear_after = std::numeric_limits<int>::max();
     // What the film sees with; it counts as CIE XYZ.
     const ColourMatching* observer = &cie1931();
 };

@@ -11,7 +11,7 @@ class PacketBatchTracer final : public BatchTracer {
   public:
     explicit PacketBatchTracer(const TracerSetup& setup)
         : setup_(setup),
-          tables_(setup.scene, setup.numbers, setup.threads, *setup.observer),
+          tables_(setup.scene, setup.numbers, setup.surfaces, setup.threads, *setup.observer),
           path_{setup.scene,
                 setup.geometry,
                 setup.lights,
@@ -21,6 +21,7 @@ class PacketBatchTracer final : public BatchTracer {
                 setup.camera.handedness(),
                 setup.max_depth,
                 setup.strategy,
+                setup.clear_after,
                 before_the_camera(setup.scene.camera)} {}
 
     void trace(const BatchRequest& request, BatchResult* result,

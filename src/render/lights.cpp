@@ -32,6 +32,7 @@ double luminance_of(const DenseSpectrum& spectrum) {
 }  // namespace
 
 void Lights::add(const Emitter& emitter, double power, size_t first_of_light) {
+    shines_ = shines_ || power > 0;
     emitters_.push_back(emitter);
     power_.push_back(power);
     light_of_.push_back(first_of_light);
@@ -71,7 +72,8 @@ void Lights::make_choice() {
     }
 }
 
-Lights::Lights(const Scene& scene, const Geometry& geometry, const SamplingStrategy& strategy)
+Lights::Lights(const Scene& scene, const Geometry& geometry, const SamplingStrategy& strategy,
+               bool constant_skies)
     : scene_(scene),
       geometry_(geometry),
       first_of_shape_(scene.shapes.size(), -1),
@@ -85,6 +87,8 @@ Lights::Lights(const Scene& scene, const Geometry& geometry, const SamplingStrat
         double luminance = 0;
         if (light.image.empty()) {
             luminance = luminance_of(light.radiance);
+            shines_ = shines_ || luminance > 0;
+            if (!constant_skies) luminance = 0;
         } else {
             infinite.environment = std::make_unique<Environment>(
                 light.picture ? *light.picture : read_image(light.image), light.scale,

@@ -22,8 +22,10 @@ namespace drude {
 class Lights {
   public:
     // Reads the environments' pictures, and samples them as the strategy says. `scene` and
-    // `geometry` must outlive it.
-    Lights(const Scene& scene, const Geometry& geometry, const SamplingStrategy& strategy = {});
+    // `geometry` must outlive it. `constant_skies`: constant infinite lights are picked too
+    // (light_choice.h).
+    Lights(const Scene& scene, const Geometry& geometry, const SamplingStrategy& strategy = {},
+           bool constant_skies = true);
 
     enum class Kind { environment, constant, distant, point, area };
 
@@ -44,7 +46,8 @@ class Lights {
     // `at` is where the light is wanted; u_choice, u uniform in [0, 1).
     Sample sample(const glm::vec3& at, float u_choice, const glm::vec2& u) const;
 
-    bool empty() const { return emitters_.empty(); }
+    // Whether there is no light at all, picked or not.
+    bool empty() const { return !shines_; }
     // Whether light of some emitter is polarised; otherwise the dop of everything here is 0.
     bool any_polarised() const { return any_polarised_; }
 
@@ -101,7 +104,7 @@ class Lights {
     std::vector<size_t> light_of_;     // first emitter of the light that an emitter belongs to
     std::vector<float> cdf_;           // cumulative probability of the emitters
     std::vector<int> first_of_shape_;  // emitter of a shape's first primitive, or -1
-    bool any_polarised_ = false;
+    bool any_polarised_ = false, shines_ = false;
     std::vector<UniformPolarisation> distant_polarisation_, point_polarisation_, area_polarisation_;
     std::vector<std::string> warnings_;
 };

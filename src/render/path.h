@@ -32,6 +32,7 @@ struct PathSetup {
     float handedness;
     int max_depth;
     SamplingStrategy strategy;
+    int clear_after;                 // rays after so many reflections meet nothing
     Throughput<transport, N> first;  // the camera's analyser, or nothing
 };
 
@@ -87,8 +88,11 @@ class Path {
     // To the next surface and off it; whether the path goes on.
     bool step() {
         Hit hit;
-        ++statistics_.rays;
-        const bool is_hit = setup_.geometry.intersect(o_, d_, &hit);
+        bool is_hit = false;
+        if (depth_ < setup_.clear_after) {
+            ++statistics_.rays;
+            is_hit = setup_.geometry.intersect(o_, d_, &hit);
+        }
         if (!setup_.elements.empty()) {
             pass_elements(o_, d_,
                           is_hit ? glm::length(hit.p - o_) : std::numeric_limits<float>::infinity(),
@@ -213,7 +217,10 @@ class Path {
         if (metal.roughness) {
             const double alpha =
                 setup_.numbers.alpha(*metal.roughness, TexturePoint(setup_.geometry, v.hit));
-            return with_lobe(v, metal, Microfacets<float>::from_alpha(alpha, metal.masking), body);
+            return with_lobe(
+                v, metal,
+                Microfacets<float>::from_alpha(tables_.model.lobe_width(alpha), metal.masking),
+                body);
         }
         return with_lobe(v, metal, metal.microfacets, body);
     }
@@ -385,6 +392,7 @@ class Path {
     bool reaches(const Vertex& v, const Lights::Sample& l, bool transmits) {
         const float side = glm::dot(l.d, v.hit.ng);
         if (!(transmits ? side < 0 : side > 0)) return false;
+        if (depth_ >= setup_.clear_after) return true;
         ++statistics_.rays;
         const glm::vec3 from = leave(v.hit, l.d);
         if (std::isinf(l.distance)) return !setup_.geometry.occluded(from, l.d, l.distance);

@@ -8,13 +8,19 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/numbers.h"
+#include "base/sha256.h"
 #include "image/analyser.h"
 #include "render/batch_tracer.h"
+#include "render/bounce_choice.h"
 #include "render/film_checkpoint.h"
 #include "render/film_layers.h"
 #include "render/film_loop.h"
 #include "render/film_ranks.h"
 #include "render/geometry_layers.h"
+#include "render/light_choice.h"
+#include "render/sampler_choice.h"
+#include "render/surface_model.h"
 #include "render/transport_choice.h"
 #include "render/wavelength_choice.h"
 
@@ -22,17 +28,7 @@ namespace drude {
 
 namespace {
 
-constexpr int usual_batch = 16;
 constexpr uint64_t most_samples = uint64_t{most_terms} * largest_batch;
-
-// The size of a batch: 16, less for very few samples, so that there are two to compare, more for
-// more samples than the sums could hold in batches of 16.
-int batch_size_for(int samples) {
-    int size = usual_batch;
-    while (size > 1 && size * 2 > samples) size /= 2;
-    while (size < largest_batch && samples / size >= static_cast<int>(most_terms)) size *= 2;
-    return size;
-}
 
 void check_options(const RenderOptions& options) {
     if (options.stokes && options.transport && *options.transport != Transport::stokes) {
@@ -53,6 +49,10 @@ void check_options(const RenderOptions& options) {
     }
     if (options.spectral && n != 0 && n != spectral_bins) {
         user_error("spectral layers need all {} wavelengths a path, not {}", spectral_bins, n);
+    }
+    if (options.mirror_below && !(*options.mirror_below >= 0 && *options.mirror_below <= 4)) {
+        user_error("mirrors below a roughness of {}; expected a number from 0 (lobes stay) to 4",
+                   *options.mirror_below);
     }
     if (options.seconds && !(*options.seconds > 0 && std::isfinite(*options.seconds))) {
         user_error("a time of {} s; expected more than 0", *options.seconds);
@@ -78,20 +78,6 @@ void check_options(const RenderOptions& options) {
     }
 }
 
-void choose_transport(const Scene& scene, const RenderOptions& options, RenderSummary* summary) {
-    if (options.stokes || (options.transport && *options.transport == Transport::stokes)) {
-        summary->transport = Transport::stokes;
-        summary->transport_reason = "S0..S3 are wanted";
-    } else if (options.transport) {
-        summary->transport = *options.transport;
-        summary->transport_reason = "asked for";
-    } else {
-        const TransportChoice choice = cheapest_exact_transport(scene, scene.max_depth);
-        summary->transport = choice.transport;
-        summary->transport_reason = choice.reason;
-    }
-}
-
 // Which part of a larger picture is rendered; empty for the whole.
 std::string crop_text(const Film& film) {
     if (!film.crop) return "";
@@ -106,6 +92,14 @@ void cut(int i, int n, FilmPart* part) {
     part->last = static_cast<uint32_t>(first + count * (static_cast<uint64_t>(i) + 1) / n);
 }
 
+// Surfaces modelled otherwise make another picture, whose samples must not be mixed with these.
+std::string picture_hash(const Scene& scene, const RenderOptions& options) {
+    if (options.films == FilmUse::automatic && !options.mirror_below) return scene.sha256;
+    return sha256(
+        fmt::format("{} films {} mirrors {}", scene.sha256, static_cast<int>(options.films),
+                    options.mirror_below ? format_double(*options.mirror_below) : "auto"));
+}
+
 // Which batches of which picture these options ask for.
 FilmPart part_for(const Scene& scene, const RenderOptions& options, const RenderSummary& summary,
                   const std::string& isa) {
@@ -113,13 +107,12 @@ FilmPart part_for(const Scene& scene, const RenderOptions& options, const Render
     FilmJob& job = part.job;
     const bool open = options.seconds || options.error;
     uint32_t batches = most_terms;
-    job.batch_size = usual_batch;
-    if (options.samples_per_pixel || !open) {
-        const int wanted = options.samples_per_pixel.value_or(scene.samples_per_pixel);
-        job.batch_size = batch_size_for(wanted);
-        batches = static_cast<uint32_t>((wanted - 1) / job.batch_size + 1);
+    const SamplerChoice sampler = sampler_choice(scene, options);
+    job.batch_size = sampler.batch_size;
+    if (sampler.samples) {
+        batches = static_cast<uint32_t>((*sampler.samples - 1) / job.batch_size + 1);
     }
-    job.scene_hash = scene.sha256;
+    job.scene_hash = picture_hash(scene, options);
     job.width = scene.film.width;
     job.height = scene.film.height;
     job.seed = options.seed.value_or(scene.seed);
@@ -170,7 +163,9 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     RenderSummary summary;
     summary.warnings = scene.warnings;
     summary.plugins = plugins_of(scene);
-    choose_transport(scene, options, &summary);
+    const TransportChoice transport = transport_choice(scene, options);
+    summary.transport = transport.transport;
+    summary.transport_reason = transport.reason;
     summary.wavelengths = options.wavelengths
                               ? options.wavelengths
                               : cheapest_exact_wavelengths(scene, options).wavelengths;
@@ -178,7 +173,7 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     const Geometry geometry(scene, options.isa);
     const OpticalElements elements(scene, options.isa);
     const NumberTextures numbers(scene);
-    const Lights lights(scene, geometry);
+    const Lights lights(scene, geometry, {}, light_choice(scene, options).constant_skies);
     if (options.lights_are_built) options.lights_are_built();
     summary.warnings.insert(summary.warnings.end(), lights.warnings().begin(),
                             lights.warnings().end());
@@ -191,10 +186,21 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     if (lights.empty()) summary.warnings.push_back("the scene has no light; the picture is black");
     const CameraRays camera(scene.camera, scene.film.width, scene.film.height);
     const PixelFilter filter(scene.filter);
-    const auto tracer =
-        make_batch_tracer(summary.transport, summary.wavelengths,
-                          {scene, geometry, lights, elements, numbers, camera, filter,
-                           options.seed.value_or(scene.seed), scene.max_depth, options.threads});
+    const BounceChoice bounces = bounce_choice(scene);
+    TracerSetup setup{scene,
+                      geometry,
+                      lights,
+                      elements,
+                      numbers,
+                      camera,
+                      filter,
+                      options.seed.value_or(scene.seed),
+                      bounces.reflections,
+                      options.threads,
+                      {}};
+    setup.surfaces = surface_model(scene, options);
+    if (!options.trace_every_ray) setup.clear_after = bounces.clear_after;
+    const auto tracer = make_batch_tracer(summary.transport, summary.wavelengths, setup);
 
     const std::vector<std::string> coarse = tracer->warnings();
     summary.warnings.insert(summary.warnings.end(), coarse.begin(), coarse.end());

@@ -15,6 +15,9 @@ namespace drude {
 
 class Ranks;
 
+// Films on metals: where leaving them out would show, always, or never.
+enum class FilmUse { automatic, keep, leave_out };
+
 struct RenderOptions {
     // The first of these that is reached ends a picture; without any the scene's samples do.
     std::optional<int> samples_per_pixel;
@@ -25,6 +28,12 @@ struct RenderOptions {
     bool stokes = false;                 // layers S0..S3; needs the stokes transport
     bool spectral = false;               // 10 nm layers in the JCGT layout (Fichet et al. 2021)
     int wavelengths = 0;                 // a path: 8, 16 or 40; 0: 8, or 40 with `spectral`
+    // Richer or poorer models than the cheapest that the scene needs (decisions.h):
+    FilmUse films = FilmUse::automatic;
+    std::optional<double>
+        mirror_below;                 // lobes of a smaller beta (or alpha) are mirrors; in [0, 4]
+    bool sample_every_light = false;  // constant skies too
+    bool trace_every_ray = false;     // also those that are known to meet nothing
     int threads = 0;
     bool quiet = false;
     std::string isa;  // Embree's instruction set; empty: the best

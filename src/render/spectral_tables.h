@@ -12,6 +12,7 @@
 #include "materials/rough_dielectric.h"
 #include "materials/surface.h"
 #include "materials/torrance_sparrow.h"
+#include "render/surface_model.h"
 #include "render/textures.h"
 #include "render/wavelengths.h"
 #include "scene/plugin_surface.h"
@@ -30,18 +31,20 @@ struct ConductorTables {
     std::string warning;  // where the table of films is coarse
 
     // Light comes from a clear medium of index `ambient`.
-    explicit ConductorTables(const ConductorMaterial& metal, int threads, double ambient = 1)
+    ConductorTables(const ConductorMaterial& metal, const SurfaceModel& model, int threads,
+                    double ambient = 1)
         : roughness(metal.textured_roughness), masking(metal.surface.masking) {
         const Material& surface = metal.surface;
-        microfacets = metal.alpha >= 0
-                          ? Microfacets<float>::from_alpha(metal.alpha, surface.masking)
-                          : Microfacets<float>(surface.lobe, surface.masking, surface.beta);
+        microfacets =
+            metal.alpha >= 0
+                ? Microfacets<float>::from_alpha(model.lobe_width(metal.alpha), surface.masking)
+                : Microfacets<float>(surface.lobe, surface.masking, model.lobe_width(surface.beta));
         if (metal.reflectance) {
             fixed_reflectance = SpectrumTextures<N>::pack(*metal.reflectance);
             return;
         }
         const Material seen = seen_from(surface, ambient);
-        if (!surface.layers.empty()) {
+        if (model.keeps_films(seen)) {
             films = FilmTable(seen, N, [&](int count, const std::function<void(int)>& body) {
                 parallel_for(static_cast<size_t>(count), threads,
                              [&](size_t i) { body(static_cast<int>(i)); });
@@ -88,9 +91,9 @@ struct DielectricTables {
     PackedSpectrum<N> eta;
     RoughDielectric<float> interface;
     bool is_dispersive;
-    explicit DielectricTables(const DielectricMaterial& m)
+    DielectricTables(const DielectricMaterial& m, const SurfaceModel& model)
         : eta(m.eta),
-          interface(Microfacets<float>::from_alpha(m.alpha, Masking::smith)),
+          interface(Microfacets<float>::from_alpha(model.lobe_width(m.alpha), Masking::smith)),
           is_dispersive(m.is_dispersive()) {}
 };
 
@@ -106,17 +109,18 @@ struct CoatTables {
     RoughDielectric<float> interface;
     float thickness;
     std::variant<ConductorTables<N>, DiffuseTables<N>> base;
-    CoatTables(const CoatedMaterial& m, int threads)
+    CoatTables(const CoatedMaterial& m, const SurfaceModel& model, int threads)
         : eta(static_cast<float>(m.eta[550 - spectrum_first_nm])),
-          interface(Microfacets<float>::from_alpha(m.alpha, Masking::smith)),
+          interface(Microfacets<float>::from_alpha(model.lobe_width(m.alpha), Masking::smith)),
           thickness(static_cast<float>(m.thickness)),
-          base(base_tables(m, threads)) {}
+          base(base_tables(m, model, threads)) {}
 
   private:
     static std::variant<ConductorTables<N>, DiffuseTables<N>> base_tables(const CoatedMaterial& m,
+                                                                          const SurfaceModel& model,
                                                                           int threads) {
         if (const auto* metal = std::get_if<ConductorMaterial>(&m.base)) {
-            return ConductorTables<N>(*metal, threads, m.eta[550 - spectrum_first_nm]);
+            return ConductorTables<N>(*metal, model, threads, m.eta[550 - spectrum_first_nm]);
         }
         return DiffuseTables<N>(std::get<DiffuseMaterial>(m.base));
     }
@@ -152,9 +156,9 @@ using SurfaceTables =
 template <int N>
 struct SpectralTables {
     // All but `observer` must outlive it. `threads` share the work of tabulating films.
-    SpectralTables(const Scene& scene, const NumberTextures& numbers, int threads,
-                   const ColourMatching& observer = cie1931())
-        : textures(scene, numbers) {
+    SpectralTables(const Scene& scene, const NumberTextures& numbers, const SurfaceModel& how,
+                   int threads, const ColourMatching& observer = cie1931())
+        : model(how), textures(scene, numbers) {
         for (const SurfaceMaterial& material : scene.materials) {
             surfaces.push_back(
                 std::visit([&](const auto& m) { return tables_of(m, threads); }, material));
@@ -203,6 +207,7 @@ struct SpectralTables {
         return all;
     }
 
+    SurfaceModel model;
     std::vector<SurfaceTables<N>> surfaces;  // by material
     SpectrumTextures<N> textures;
     std::vector<PackedSpectrum<N>> infinite_radiance, distant_irradiance, point_intensity;
@@ -212,19 +217,21 @@ struct SpectralTables {
 
   private:
     using Tables = SurfaceTables<N>;
-    static Tables tables_of(const ConductorMaterial& m, int threads) {
-        return ConductorTables<N>(m, threads);
+    Tables tables_of(const ConductorMaterial& m, int threads) const {
+        return ConductorTables<N>(m, model, threads);
     }
     static Tables tables_of(const DiffuseMaterial& m, int) { return DiffuseTables<N>(m); }
     static Tables tables_of(const DiffuseTransmissionMaterial& m, int) {
         return DiffuseTransmissionTables<N>(m);
     }
-    static Tables tables_of(const DielectricMaterial& m, int) { return DielectricTables<N>(m); }
+    Tables tables_of(const DielectricMaterial& m, int) const {
+        return DielectricTables<N>(m, model);
+    }
     static Tables tables_of(const ThinDielectricMaterial& m, int) {
         return ThinDielectricTables<N>(m);
     }
-    static Tables tables_of(const CoatedMaterial& m, int threads) {
-        return CoatTables<N>(m, threads);
+    Tables tables_of(const CoatedMaterial& m, int threads) const {
+        return CoatTables<N>(m, model, threads);
     }
     static Tables tables_of(const MixMaterial& m, int) {
         return MixTables{m.first, m.second, m.amount};

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "render/render.h"
 #include "render/throughput.h"
 #include "scene/scene.h"
 
@@ -18,6 +19,9 @@ struct TransportChoice {
 // a perfect depolariser between: at most one reflection, no metal at all, or a single metal that
 // is only ever seen from its convex side.
 TransportChoice cheapest_exact_transport(const Scene& scene, int max_depth);
+
+// What a render with these options carries: what they ask for, or the cheapest exact one.
+TransportChoice transport_choice(const Scene& scene, const RenderOptions& options);
 
 // "scalar", "intensity", "stokes".
 std::string_view transport_name(Transport transport);

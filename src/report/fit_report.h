@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/model_decision.h"
 #include "fitter/bootstrap.h"
 #include "fitter/common_error.h"
 #include "fitter/literature.h"
@@ -26,6 +27,7 @@ struct FitReport {
     std::vector<SubstrateAlternative> substrates;  // of a film
     std::optional<BootstrapResult> bootstrap;
     std::optional<ProfileResult> profile;
+    std::vector<ModelDecision> decisions;  // where they are to be explained
     Provenance provenance;
 };
 

@@ -16,7 +16,7 @@ namespace drude {
 
 namespace {
 
-constexpr double top = 36, left = 74, bar_width = 14, bar_space = 96;
+constexpr double top = 54, bar_width = 14, bar_space = 76, letter = 7.5;
 
 std::string hex(const Colour& linear) {
     std::string text = "#";
@@ -31,9 +31,18 @@ class Drawing {
             map.cells.size() != map.at_x.size() * map.at_y.size()) {
             throw std::invalid_argument("heat_map: cells and grid differ in " + map.id);
         }
+        for (size_t i = 0; i < map.at_x.size(); ++i) {
+            words_x_.push_back(i < map.names_x.size() ? map.names_x[i] : label(map.at_x[i]));
+        }
+        double widest = 0;
+        for (size_t i = 0; i < map.at_y.size(); ++i) {
+            words_y_.push_back(i < map.names_y.size() ? map.names_y[i] : label(map.at_y[i]));
+            widest = std::max(widest, letter * static_cast<double>(words_y_.back().size()));
+        }
+        left_ = 36 + widest;
         right_ = map.width - bar_space;
         bottom_ = map.height - 48.0;
-        x_ = edges(map.at_x.size(), left, right_);
+        x_ = edges(map.at_x.size(), left_, right_);
         y_ = edges(map.at_y.size(), bottom_, top);
         range();
     }
@@ -94,7 +103,7 @@ class Drawing {
         add(R"(<defs><pattern id="{}-h" width="6" height="6" patternUnits="userSpaceOnUse">)"
             R"(<path d="M0 6L6 0" stroke="currentColor" opacity="0.5"/></pattern></defs>)",
             id_);
-        add(R"(<text x="{}" y="20" font-weight="600" font-size="15">{}</text>)", left,
+        add(R"(<text x="{}" y="20" font-weight="600" font-size="15">{}</text>)", left_,
             escape_markup(map_.title));
     }
 
@@ -109,12 +118,12 @@ class Drawing {
             add(R"(<rect x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="{}">)"
                 "<title>{}, {}: {}</title></rect>",
                 x_[ix], y_[iy + 1], x_[ix + 1] - x_[ix] + 0.3, y_[iy] - y_[iy + 1] + 0.3, fill,
-                short_number(map_.at_x[ix]), short_number(map_.at_y[iy]),
-                cell.hatched ? "refused" : short_number(cell.value));
+                escape_markup(words_x_[ix]), escape_markup(words_y_[iy]),
+                cell.hatched ? "refused" : label(cell.value));
         }
     }
 
-    static std::string short_number(double value) { return fmt::format("{:.4g}", value); }
+    static std::string label(double value) { return fmt::format("{:.3g}", value); }
 
     void border() {
         const size_t nx = map_.at_x.size(), ny = map_.at_y.size();
@@ -143,17 +152,17 @@ class Drawing {
             return std::max<size_t>(
                 1, static_cast<size_t>(std::ceil(static_cast<double>(count) / room)));
         };
-        const size_t step_x = every(map_.at_x.size(), (right_ - left) / 52);
+        const size_t step_x = every(map_.at_x.size(), (right_ - left_) / 52);
         for (size_t i = 0; i < map_.at_x.size(); i += step_x) {
             add(R"(<text x="{:.2f}" y="{:.2f}" text-anchor="middle">{}</text>)",
-                0.5 * (x_[i] + x_[i + 1]), bottom_ + 17, fmt::format("{:.3g}", map_.at_x[i]));
+                0.5 * (x_[i] + x_[i + 1]), bottom_ + 17, escape_markup(words_x_[i]));
         }
         const size_t step_y = every(map_.at_y.size(), (bottom_ - top) / 18);
         for (size_t i = 0; i < map_.at_y.size(); i += step_y) {
-            add(R"(<text x="{}" y="{:.2f}" text-anchor="end">{}</text>)", left - 7,
-                0.5 * (y_[i] + y_[i + 1]) + 4.5, fmt::format("{:.3g}", map_.at_y[i]));
+            add(R"(<text x="{}" y="{:.2f}" text-anchor="end">{}</text>)", left_ - 7,
+                0.5 * (y_[i] + y_[i + 1]) + 4.5, escape_markup(words_y_[i]));
         }
-        add(R"(<text x="{:.2f}" y="{:.2f}" text-anchor="middle">{}</text>)", 0.5 * (left + right_),
+        add(R"(<text x="{:.2f}" y="{:.2f}" text-anchor="middle">{}</text>)", 0.5 * (left_ + right_),
             bottom_ + 38, escape_markup(map_.x));
         const double middle = 0.5 * (top + bottom_);
         add(R"s(<text x="14" y="{0:.2f}" text-anchor="middle" transform="rotate(-90 14 {0:.2f})">)s"
@@ -183,7 +192,7 @@ class Drawing {
                 x - 4, y, bar_width + 8, x - 4, y, bar_width + 8);
         }
         add(R"(<text x="{}" y="{}" text-anchor="end" font-size="12">{}</text>)", map_.width - 4,
-            top - 10, escape_markup(map_.value));
+            top - 12, escape_markup(map_.value));
     }
 
     void legend() {
@@ -191,13 +200,13 @@ class Drawing {
         if (!map_.hatched.empty()) {
             add(R"s(<rect x="{}" y="{:.2f}" width="22" height="11" fill="url(#{}-h)" )s"
                 R"(stroke="currentColor" stroke-opacity="0.5"/><text x="{}" y="{:.2f}">{}</text>)",
-                left, y - 10, id_, left + 28, y, escape_markup(map_.hatched));
+                left_, y - 10, id_, left_ + 28, y, escape_markup(map_.hatched));
             y += 20;
         }
         if (!map_.outside.empty()) {
             add(R"(<path d="M{} {:.2f}h22" stroke="#d55e00" stroke-width="2.5"/>)"
                 R"(<text x="{}" y="{:.2f}">{}</text>)",
-                left, y - 4.5, left + 28, y, escape_markup(map_.outside));
+                left_, y - 4.5, left_ + 28, y, escape_markup(map_.outside));
         }
     }
 
@@ -205,7 +214,8 @@ class Drawing {
     const std::string id_;
     std::string out_;
     std::vector<double> x_, y_;
-    double right_ = 0, bottom_ = 0, low_ = 0, high_ = 1;
+    std::vector<std::string> words_x_, words_y_;
+    double left_ = 0, right_ = 0, bottom_ = 0, low_ = 0, high_ = 1;
 };
 
 }  // namespace

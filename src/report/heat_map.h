@@ -16,10 +16,11 @@ struct HeatMap {
     std::string title, description, id = "map";
     std::string x, y;                // labels of the axes
     std::vector<double> at_x, at_y;  // one a column and a row; the first row stands at the bottom
-    std::vector<HeatCell> cells;     // at_x.size() * at_y.size(), row by row
-    std::string value;               // label of the colour bar
-    double bound = 0;                // marked on the bar; none where not > 0
-    std::string hatched, outside;    // of the legend
+    std::vector<std::string> names_x, names_y;  // in place of the values; none or one each
+    std::vector<HeatCell> cells;                // at_x.size() * at_y.size(), row by row
+    std::string value;                          // label of the colour bar
+    double bound = 0;                           // marked on the bar; none where not > 0
+    std::string hatched, outside;               // of the legend
     int width = 560, height = 360;
 };
 

@@ -459,6 +459,31 @@ TEST(FreshFrame, DiscardsTheFirstAndWhatBeganBefore) {
     expect_error(Cause::outside, {"began before"}, [&] { acquire_fresh(spectrometer, 5); });
 }
 
+// An odd number of steps and one frame at each: no two readings of one setting.
+TEST(NoiseModel, SaysWhereTheNoiseOfLightIsUnknown) {
+    const TemporaryFolder folder;
+    const auto warned = [&](int steps, int averages) {
+        Bench bench = short_bench();
+        Recipe recipe = short_recipe();
+        recipe.steps = steps;
+        recipe.averages = averages;
+        NoOperator nobody;
+        SweepOptions options;
+        options.journal = folder.file(fmt::format("{} {}.journal", steps, averages));
+        const Journal journal = run_sweep(bench, recipe, nobody, options).journal;
+        const JournalReduction reduced = reduce_journal(journal, {});
+        const bool said = std::any_of(
+            reduced.warnings.begin(), reduced.warnings.end(), [](const std::string& warning) {
+                return warning.find("nothing tells the noise of the light") != std::string::npos;
+            });
+        EXPECT_EQ(said, reduced.noise.light_readings == 0);
+        return said;
+    };
+    EXPECT_TRUE(warned(5, 1));
+    EXPECT_FALSE(warned(6, 1));
+    EXPECT_FALSE(warned(5, 2));
+}
+
 // Coefficients of the settings, recovered from frames alone.
 TEST(NoiseModel, FindsWhatTheBenchWasGiven) {
     const TemporaryFolder folder;

@@ -249,7 +249,7 @@ TEST(Film, AnErrorEndsThePictureOfThatCount) {
     const Scene scene = copper(16);
     RenderOptions options = options_for(0);
     options.samples_per_pixel.reset();
-    options.error = 0.015;
+    options.error = 0.008;
     options.threads = 1;
     const RenderResult one = render(scene, options);
     options.threads = 2;

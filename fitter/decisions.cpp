@@ -1,0 +1,226 @@
+#include "fitter/decisions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "fitter/angle_choice.h"
+#include "fitter/data_decisions.h"
+#include "fitter/dispersion_choice.h"
+#include "fitter/model_curve.h"
+#include "fitter/model_ladder.h"
+
+namespace drude {
+
+namespace {
+
+constexpr const char* parameters_unit = "parameters";
+
+DecisionFigure parameters_of(int parameters, int data) {
+    if (data == 0) return {std::nullopt, "", "could not be fitted"};
+    return {static_cast<double>(parameters), parameters_unit,
+            fmt::format("computed: fitted to {} data", data)};
+}
+
+DecisionFigure misfit_of(double chi2_reduced, double bic, int data) {
+    if (data == 0) return {std::nullopt, "", "could not be fitted"};
+    return {chi2_reduced, "reduced chi-square",
+            fmt::format("computed from this measurement; BIC {:.6g}", bic)};
+}
+
+DecisionAlternative alternative_of(const LadderRung& rung) {
+    const std::string name =
+        rung.objection.empty() ? rung.model : fmt::format("{} ({})", rung.model, rung.objection);
+    return {name, parameters_of(rung.parameters, rung.data),
+            misfit_of(rung.chi2_reduced, rung.bic, rung.data)};
+}
+
+void set_figures(const FitResult& fit, const FitOptions& options, ModelDecision* decision) {
+    decision->cost = parameters_of(fit.parameters, fit.data);
+    decision->error =
+        misfit_of(fit.chi2_reduced(), bayesian_criterion(fit, options.unweighted), fit.data);
+}
+
+// A fit that may be refused; `why` is then the reason.
+std::optional<FitResult> try_fit(const Measurement& measurement, const FitOptions& options,
+                                 std::string* why) {
+    try {
+        return fit_measurement(measurement, options);
+    } catch (const Error& error) {
+        if (error.cause() != Cause::answer_is_no) throw;
+        *why = error.message();
+        return std::nullopt;
+    }
+}
+
+bool belongs_to_formula(const LadderRung& rung) {
+    return rung.model.rfind("n, k: ", 0) == 0;
+}
+
+ModelDecision model_decision(const Measurement& measurement, const FitOptions& options,
+                             const FitResult& fit) {
+    ModelDecision decision;
+    decision.name = "film or bare";
+    decision.choice = fit.model;
+    if (fit.find("angle offset") != nullptr) decision.choice += " + angle offset";
+    if (fit.find("thickness spread") != nullptr) decision.choice += " + spread";
+    decision.override_option = "--model bulk|overlayer|film|auto";
+    set_figures(fit, options, &decision);
+    if (options.model == "auto") {
+        decision.reason = fmt::format(
+            "the smallest model of the ladder: a larger one is taken where BIC falls by more than "
+            "{:g} and chi-square moves towards 1",
+            ladder_bic_gain);
+        for (const LadderRung& rung : fit.ladder) {
+            if (!belongs_to_formula(rung) && rung.model != decision.choice) {
+                decision.alternatives.push_back(alternative_of(rung));
+            }
+        }
+        return decision;
+    }
+    decision.asked = options.model != "bulk";
+    decision.reason = decision.asked ? "asked for"
+                                     : "what is not asked for is a bare surface: n and k take up "
+                                       "whatever lies on it";
+    if (options.estimator == "inversion" || !fit.robust.empty()) return decision;
+    FitOptions automatic = options;
+    automatic.model = "auto";
+    automatic.fit_angle_offset = false;
+    automatic.robust = "none";
+    std::string why;
+    if (const auto ladder = try_fit(measurement, automatic, &why)) {
+        if (ladder->model != fit.model) {
+            decision.reason += fmt::format("; --model auto would take {}", ladder->model);
+        }
+        for (const LadderRung& rung : ladder->ladder) {
+            if (!belongs_to_formula(rung) && rung.model != fit.model) {
+                decision.alternatives.push_back(alternative_of(rung));
+            }
+        }
+    }
+    return decision;
+}
+
+ModelDecision dispersion_decision(const Measurement& measurement, const FitOptions& options,
+                                  const FitResult& fit) {
+    ModelDecision decision;
+    decision.name = "point by point or formula";
+    decision.override_option = "--dispersion auto|compact|drude+2cp|...";
+    set_figures(fit, options, &decision);
+    if (fit.model == "film") {
+        decision.choice = "formula of the film's mixture";
+        decision.reason = "the materials of a film are known, its porosity mixes them";
+        return decision;
+    }
+    decision.choice = fit.dispersion.empty() ? "point by point" : fit.dispersion;
+    decision.asked = !options.dispersion.empty() && options.dispersion != "auto";
+    const std::string rule =
+        fmt::format("a formula is taken where BIC falls by more than {:g} and its chi-square is 1",
+                    ladder_bic_gain);
+    decision.reason = decision.asked                 ? "asked for"
+                      : options.dispersion == "auto" ? rule
+                                                     : "without a formula every wavelength stands "
+                                                       "for itself, which is never wrong";
+    const std::string given = options.dispersion;
+    if (options.estimator == "inversion" || !fit.robust.empty()) return decision;
+    FitOptions other = options_taken(options, fit);
+    other.dispersion = "auto";
+    other.dispersion_start.clear();
+    other.robust = "none";
+    std::string why;
+    if (const auto compared = try_fit(measurement, other, &why)) {
+        if (given != "auto" && compared->dispersion != fit.dispersion) {
+            decision.reason +=
+                fmt::format("; --dispersion auto would take {}",
+                            compared->dispersion.empty() ? "point by point" : compared->dispersion);
+        }
+        for (const LadderRung& rung : compared->ladder) {
+            if (rung.model != decision.choice) {
+                decision.alternatives.push_back(alternative_of(rung));
+            }
+        }
+    }
+    return decision;
+}
+
+ModelDecision search_decision(const FitOptions& options, const FitResult& fit) {
+    ModelDecision decision;
+    decision.name = "global search";
+    decision.override_option = "--max-thickness NM";
+    if (fit.model != "film") {
+        decision.choice = "none";
+        decision.reason =
+            fit.dispersion.empty()
+                ? "n and k of one wavelength have one minimum, and a closed form starts beside it"
+                : "a formula starts from n and k point by point, several starts are refined";
+        decision.cost = {fit.dispersion.empty() ? 1.0 : 6.0, "starts refined",
+                         "computed: the fit's own number"};
+        decision.error = {0, "of chi-square", "see tests/fitter: every start ends in one minimum"};
+        decision.override_option = "none";
+        return decision;
+    }
+    decision.choice = fmt::format("thickness up to {:g} nm", options.film.largest_thickness_nm);
+    decision.reason = "chi-square has a minimum for every fringe; their spectrum gives the starts";
+    decision.cost = {options.film.largest_thickness_nm, "nm searched", "the option's own"};
+    if (fit.rival_thickness_nm > 0) {
+        // Odds of the two minima for equal priors.
+        decision.error = {std::exp(-0.5 * std::min(1400.0, fit.rival_chi2_excess)),
+                          "likelihood of the next best thickness over that of the best",
+                          fmt::format("computed: {:.6g} nm, chi-square {:.3g} more",
+                                      fit.rival_thickness_nm, fit.rival_chi2_excess)};
+    } else {
+        decision.error = {0, "likelihood of the next best thickness over that of the best",
+                          "computed: the search met no other minimum"};
+    }
+    return decision;
+}
+
+ModelDecision substrate_decision(const FitResult& fit,
+                                 const std::vector<SubstrateAlternative>& substrates) {
+    ModelDecision decision;
+    decision.name = "substrate";
+    decision.override_option = "--substrate MATERIAL";
+    decision.cost = {0, parameters_unit, "a substrate is known, not fitted"};
+    if (fit.model != "film") {
+        decision.choice = "none";
+        decision.reason = "what is fitted is the bottom";
+        decision.error = {0, "nm of thickness", "there is no film"};
+        return decision;
+    }
+    decision.choice = fit.substrate.name;
+    decision.asked = true;
+    decision.reason = "named; the thickness depends on it as the other sets of its material show";
+    double largest = 0;
+    for (const SubstrateAlternative& other : substrates) {
+        const double shift = other.thickness.value - other.same_range.value;
+        largest = std::max(largest, std::abs(shift));
+        decision.alternatives.push_back(
+            {fmt::format("{} ({:g} to {:g} nm)", other.name, other.first_nm, other.last_nm),
+             {0, parameters_unit, "known"},
+             {shift, "nm of thickness", "computed: both fitted over these wavelengths"}});
+    }
+    const double sigma = fit.common.empty() ? std::nan("") : fit.common.front().sigma;
+    decision.error = {substrates.empty() ? std::optional<double>{} : largest, "nm of thickness",
+                      substrates.empty()
+                          ? "no other published set of this material covers the range"
+                          : fmt::format("computed: the largest shift by another set; the data's "
+                                        "own standard deviation is {:.2g} nm",
+                                        sigma)};
+    return decision;
+}
+
+}  // namespace
+
+std::vector<ModelDecision> decisions(const Measurement& measurement, const FitOptions& options,
+                                     const FitResult& fit,
+                                     const std::vector<SubstrateAlternative>& substrates) {
+    return {model_decision(measurement, options, fit),
+            dispersion_decision(measurement, options, fit),
+            angle_decision(measurement, options, fit),
+            estimator_decision(measurement, options, fit),
+            robust_decision(measurement, options, fit),
+            substrate_decision(fit, substrates),
+            search_decision(options, fit)};
+}
+
+}  // namespace drude

@@ -1,0 +1,64 @@
+#include "fitter/dispersion_choice.h"
+
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "fitter/model_ladder.h"
+
+namespace drude {
+
+namespace {
+
+LadderRung rung_of(const std::string& name, const FitResult& fit, bool unweighted) {
+    LadderRung rung;
+    rung.model = name;
+    rung.data = fit.data;
+    rung.parameters = fit.parameters;
+    rung.chi2_reduced = fit.chi2_reduced();
+    rung.bic = bayesian_criterion(fit, unweighted);
+    return rung;
+}
+
+std::string objection(const FitResult& points, const FitResult& formula,
+                      const FitOptions& options) {
+    if (formula.data < points.data) {
+        return fmt::format("it explains {} data, fewer than {}", formula.data, points.data);
+    }
+    if (!(formula.dof() > 0)) return "it has as many parameters as data";
+    const double allowed = 3 * chi2_scatter(formula, options);
+    if (!options.unweighted && std::abs(formula.chi2_reduced() - 1) > allowed) {
+        return fmt::format("its reduced chi-square is {:.4g}, not 1 +- {:.2g}",
+                           formula.chi2_reduced(), allowed);
+    }
+    const double gain = bayesian_criterion(points, options.unweighted) -
+                        bayesian_criterion(formula, options.unweighted);
+    return gain > ladder_bic_gain ? "" : small_gain(gain);
+}
+
+}  // namespace
+
+FitResult fit_dispersion_if_it_holds(const Measurement& measurement, const FitOptions& options) {
+    FitOptions by_points = options, by_formula = options;
+    by_points.dispersion.clear();
+    by_formula.dispersion = "compact";
+    FitResult points = fit_measurement(measurement, by_points);
+    LadderRung first = rung_of("point by point", points, options.unweighted), second;
+    second.model = "compact formula";
+    std::optional<FitResult> formula;
+    try {
+        formula = fit_measurement(measurement, by_formula);
+        second = rung_of(formula->dispersion, *formula, options.unweighted);
+        second.objection = objection(points, *formula, options);
+    } catch (const Error& error) {
+        if (error.cause() != Cause::answer_is_no) throw;
+        second.objection = error.message();
+    }
+    second.taken = second.objection.empty();
+    first.taken = true;  // as the first rung of every ladder
+    FitResult& taken = second.taken ? *formula : points;
+    taken.ladder = {std::move(first), std::move(second)};
+    return std::move(taken);
+}
+
+}  // namespace drude

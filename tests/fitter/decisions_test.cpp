@@ -1,0 +1,300 @@
+// What a fit chooses: for each decision a measurement where the richer model tells nothing and the
+// cheap one is taken, and one where it tells and is taken.
+#include "fitter/decisions.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "base/error.h"
+#include "base/numbers.h"
+#include "film_cases.h"
+#include "fit_cases.h"
+#include "fitter/angle_choice.h"
+#include "fitter/dispersion_choice.h"
+#include "fitter/robust_choice.h"
+#include "materials/dispersion.h"
+
+namespace drude {
+namespace {
+
+Measurement simulated(const Material& material, uint64_t seed,
+                      const std::vector<double>& angles_deg = paper_angles()) {
+    SimulationSetup setup;
+    setup.angles_deg = angles_deg;
+    setup.wavelengths_nm = parse_grid("400:700:10", "wavelengths");
+    setup.seed = seed;
+    return simulate_ellipsometer(material, setup);
+}
+
+// A metal of free electrons alone: epsilon = 1 - Ep^2/(E^2 + i G E).
+Material drude_metal() {
+    OpticalConstants set;
+    set.name = "free electrons";
+    set.kind = "calculated";
+    for (double nm = 390; nm <= 710; nm += 1) {
+        const Complex<double> term = drude_term(12.0, 0.6, photon_energy(nm));
+        const std::complex<double> index = std::sqrt(std::complex<double>(1 + term.re, term.im));
+        set.wavelength_nm.push_back(nm);
+        set.n.push_back(index.real());
+        set.k.push_back(index.imag());
+    }
+    return material_from_set(set);
+}
+
+double rms_error(const FitResult& fit, const OpticalConstants& truth) {
+    double sum = 0;
+    for (const FittedPoint& point : fit.points) {
+        const Index index = truth.at(point.wavelength_nm);
+        sum += std::pow(point.n - index.n, 2) + std::pow(point.k - index.k, 2);
+    }
+    return std::sqrt(sum / static_cast<double>(fit.points.size()));
+}
+
+ModelDecision decision_on(const Measurement& data, const FitOptions& options,
+                          const std::string& name) {
+    const FitResult fit = fit_measurement(data, options);
+    for (ModelDecision& decision :
+         decisions(data, options, fit, other_substrates(data, options, fit))) {
+        if (decision.name == name) return std::move(decision);
+    }
+    throw std::logic_error("no decision on " + name);
+}
+
+TEST(FitDecisions, EachHasAReasonAFigureAndAnOption) {
+    FitOptions automatic = anodised_options();
+    automatic.model = "auto";
+    automatic.dispersion = "auto";
+    for (const FitOptions& options : {FitOptions{}, automatic}) {
+        const Measurement data = simulated(find_material("Cu-McPeak"), 1, {60, 70});
+        const FitResult fit = fit_measurement(data, options);
+        const auto all = decisions(data, options, fit, other_substrates(data, options, fit));
+        EXPECT_EQ(all.size(), 7u);
+        for (const ModelDecision& decision : all) {
+            EXPECT_FALSE(decision.choice.empty()) << decision.name;
+            EXPECT_FALSE(decision.reason.empty()) << decision.name;
+            EXPECT_FALSE(decision.override_option.empty()) << decision.name;
+            EXPECT_FALSE(decision.cost.basis.empty()) << decision.name;
+            EXPECT_FALSE(decision.error.basis.empty()) << decision.name;
+            EXPECT_FALSE(decision.asked) << decision.name;
+        }
+    }
+}
+
+// ---- film or bare ------------------------------------------------------------------------------
+
+TEST(FitDecisions, BareMetalTakesNoFilm) {
+    FitOptions options = anodised_options();
+    options.model = "auto";
+    const ModelDecision decision =
+        decision_on(simulated(find_material("Al-Rakic"), 3), options, "film or bare");
+    EXPECT_EQ(decision.choice, "bulk");
+    // The film, too, describes bare metal: it tells nothing more.
+    const auto film = std::find_if(
+        decision.alternatives.begin(), decision.alternatives.end(),
+        [](const DecisionAlternative& other) { return other.choice.rfind("film", 0) == 0; });
+    ASSERT_NE(film, decision.alternatives.end());
+    EXPECT_NE(film->choice.find("("), std::string::npos) << "no objection";
+}
+
+TEST(FitDecisions, AnAnodisedMetalTakesAFilm) {
+    FitOptions options = anodised_options();
+    options.model = "auto";
+    const Measurement data = measured_film(900, 0.2, 4, {50, 60, 70});
+    const ModelDecision decision = decision_on(data, options, "film or bare");
+    EXPECT_EQ(decision.choice, "film");
+    EXPECT_NEAR(decision.error.value.value(), 1, 0.2);
+    // Bare of it n and k miss.
+    ASSERT_EQ(decision.alternatives[0].choice.rfind("bulk", 0), 0u);
+    EXPECT_GT(decision.alternatives[0].error.value.value(), 100);
+}
+
+// ---- point by point or a formula ---------------------------------------------------------------
+
+TEST(FitDecisions, FreeElectronsTakeTheirFormula) {
+    const Material metal = drude_metal();
+    FitOptions options;
+    options.dispersion = "auto";
+    FitOptions points;
+    for (uint64_t seed = 1; seed <= 3; ++seed) {
+        const Measurement data = simulated(metal, seed);
+        const FitResult automatic = fit_measurement(data, options);
+        EXPECT_EQ(automatic.dispersion, "drude");
+        ASSERT_EQ(automatic.ladder.size(), 2u);
+        EXPECT_TRUE(automatic.ladder[1].taken);
+        // The same constants, with less noise.
+        const double with = rms_error(automatic, metal.substrate);
+        const double without = rms_error(fit_measurement(data, points), metal.substrate);
+        EXPECT_LT(with, without / 2);
+    }
+}
+
+TEST(FitDecisions, CopperStaysPointByPoint) {
+    FitOptions options, formula;
+    options.dispersion = "auto";
+    formula.dispersion = "compact";
+    const Material copper = find_material("Cu-McPeak");
+    const Measurement data = simulated(copper, 2);
+    const FitResult automatic = fit_measurement(data, options);
+    EXPECT_EQ(automatic.dispersion, "");
+    ASSERT_EQ(automatic.ladder.size(), 2u);
+    EXPECT_FALSE(automatic.ladder[1].taken);
+    EXPECT_FALSE(automatic.ladder[1].objection.empty());
+    // The formula's error is more than the noise of the points.
+    EXPECT_GT(rms_error(fit_measurement(data, formula), copper.substrate),
+              1.3 * rms_error(automatic, copper.substrate));
+    const ModelDecision by_default = decision_on(data, {}, "point by point or formula");
+    EXPECT_EQ(by_default.choice, "point by point");
+    EXPECT_EQ(by_default.reason.find("would take"), std::string::npos);
+}
+
+TEST(FitDecisions, TheDefaultSaysWhatAutoWouldTake) {
+    const ModelDecision decision =
+        decision_on(simulated(drude_metal(), 1), {}, "point by point or formula");
+    EXPECT_EQ(decision.choice, "point by point");
+    EXPECT_NE(decision.reason.find("--dispersion auto would take drude"), std::string::npos)
+        << decision.reason;
+}
+
+// ---- angles ------------------------------------------------------------------------------------
+
+TEST(FitDecisions, OneAngleOfPsiAndDeltaDoesForCopper) {
+    const Measurement data = simulated(find_material("Cu-McPeak"), 1);
+    const FitResult fit = fit_measurement(data, {});
+    const AngleChoice choice = angle_choice(data, {}, fit);
+    EXPECT_EQ(choice.all.angles_deg.size(), 6u);
+    ASSERT_EQ(choice.needed.angles_deg.size(), 1u);
+    // Information predicts what a fit of those rows finds.
+    const FitResult one = fit_measurement(at_angles(data, choice.needed.angles_deg), {});
+    std::vector<double> sigmas;
+    for (const FittedPoint& point : one.points) {
+        sigmas.push_back(std::hypot(point.sigma_n, point.sigma_k));
+    }
+    std::nth_element(sigmas.begin(), sigmas.begin() + 15, sigmas.end());
+    EXPECT_NEAR(sigmas[15] / choice.needed.sigma, 1, 0.05);
+    EXPECT_LE(choice.needed.sigma, enough_sigma * choice.all.sigma);
+    const OpticalConstants& truth = published_set("Cu-McPeak");
+    EXPECT_LT(rms_error(one, truth), 3 * choice.all.sigma);
+}
+
+TEST(FitDecisions, SilverByPsiAloneTakesSeveral) {
+    const Measurement data = simulated(find_material("Ag-Johnson"), 1);
+    FitOptions options;
+    options.estimator = "rho2";
+    const FitResult fit = fit_measurement(data, options);
+    const AngleChoice choice = angle_choice(data, options, fit);
+    EXPECT_GE(choice.needed.angles_deg.size(), 2u);
+    // One angle gives one number for two unknowns.
+    EXPECT_TRUE(std::isinf(choice.best[0].sigma));
+    // The steepest angle tells most.
+    EXPECT_GT(choice.without.back().sigma, choice.without.front().sigma);
+}
+
+TEST(FitDecisions, FilmsTellWhatEachAngleIsWorth) {
+    const Measurement data = measured_film(900, 0.2, 4, {50, 60, 70});
+    const FitOptions options = anodised_options();
+    const AngleChoice choice = angle_choice(data, options, fit_measurement(data, options));
+    ASSERT_EQ(choice.without.size(), 3u);
+    for (const AngleSet& set : choice.without) {
+        EXPECT_EQ(set.angles_deg.size(), 2u);
+        EXPECT_GT(set.sigma, choice.all.sigma);
+        EXPECT_LT(set.sigma, 3 * choice.all.sigma);
+    }
+    EXPECT_EQ(choice.needed.angles_deg.size(), 2u);
+}
+
+TEST(FitDecisions, AnAngleThatIsNotThereIsRefused) {
+    const Measurement data = simulated(find_material("Cu-McPeak"), 1, {60, 70});
+    EXPECT_EQ(at_angles(data, {70}).angles(), std::vector<double>{70});
+    EXPECT_THROW(at_angles(data, {65}), Error);
+    EXPECT_THROW(at_angles(data, {}), Error);
+}
+
+// ---- estimator ---------------------------------------------------------------------------------
+
+double loss_of_psi_alone(const char* metal, double sigma_delta_deg) {
+    SimulationSetup setup;
+    setup.angles_deg = paper_angles();
+    setup.wavelengths_nm = parse_grid("400:700:50", "wavelengths");
+    setup.seed = 1;
+    setup.sigma_delta_deg = sigma_delta_deg;
+    const Measurement data = simulate_ellipsometer(find_material(metal), setup);
+    const ModelDecision decision = decision_on(data, {}, "estimator");
+    EXPECT_EQ(decision.choice, "psi-delta");
+    return decision.alternatives[0].error.value.value() / decision.error.value.value();
+}
+
+TEST(FitDecisions, DeltaTellsMostOfAluminium) {
+    EXPECT_GT(loss_of_psi_alone("Al-Rakic", 0.1), 10);
+}
+
+TEST(FitDecisions, ADeltaOfLargeErrorsTellsLittle) {
+    EXPECT_LT(loss_of_psi_alone("Cu-McPeak", 20), 1.3);
+}
+
+// ---- robust ------------------------------------------------------------------------------------
+
+TEST(FitDecisions, CleanDataTakeLeastSquares) {
+    FitOptions automatic;
+    automatic.robust = "auto";
+    for (uint64_t seed = 1; seed <= 5; ++seed) {
+        const Measurement data = simulated(find_material("Cu-McPeak"), seed);
+        const FitResult fit = fit_measurement(data, automatic);
+        EXPECT_EQ(fit.robust, "");
+        EXPECT_EQ(fit.chi2, fit_measurement(data, {}).chi2);
+    }
+}
+
+TEST(FitDecisions, BadRowsTakeARobustLoss) {
+    const Material copper = find_material("Cu-McPeak");
+    Measurement data = simulated(copper, 1);
+    for (size_t i = 7; i < data.rows.size(); i += 20) data.rows[i].delta_deg += 10;
+    FitOptions automatic;
+    automatic.robust = "auto";
+    const FitResult robust = fit_measurement(data, automatic);
+    EXPECT_EQ(robust.robust, "tukey");
+    EXPECT_LT(5 * rms_error(robust, copper.substrate),
+              rms_error(fit_measurement(data, {}), copper.substrate));
+    EXPECT_NE(decision_on(data, {}, "robust").reason.find("--robust auto would take tukey"),
+              std::string::npos);
+}
+
+TEST(FitDecisions, AWrongModelIsNoMatterOfBadRows) {
+    const Measurement data = measured_film(900, 0.2, 4, {50, 60, 70});
+    const FitResult bulk = fit_measurement(data, {});
+    EXPECT_EQ(robust_choice(bulk, data, {}).loss, "none");
+}
+
+// ---- substrate, search -------------------------------------------------------------------------
+
+TEST(FitDecisions, TheSubstrateCountsUnderAFilmAndNotWithoutOne) {
+    const ModelDecision under =
+        decision_on(measured_film(900, 0.2, 4), anodised_options(), "substrate");
+    EXPECT_EQ(under.choice, "Al-Rakic");
+    ASSERT_FALSE(under.alternatives.empty());
+    EXPECT_GT(under.error.value.value(), 0.1);
+    const ModelDecision bare =
+        decision_on(simulated(find_material("Cu-McPeak"), 1), {}, "substrate");
+    EXPECT_EQ(bare.choice, "none");
+    EXPECT_EQ(bare.error.value.value(), 0);
+}
+
+TEST(FitDecisions, OnlyFilmsAreSearchedFor) {
+    const ModelDecision film =
+        decision_on(measured_film(1800, 0.2, 4), anodised_options(), "global search");
+    EXPECT_EQ(film.choice.rfind("thickness up to", 0), 0u);
+    EXPECT_LT(film.error.value.value(), 1e-6);
+    // What the search is for: from a fringe's distance least squares ends in another minimum.
+    const Measurement data = measured_film(1800, 0.2, 4);
+    FitOptions beside = anodised_options();
+    beside.film.start = FilmGuess{1500, 0.2};
+    EXPECT_GT(fit_measurement(data, beside).chi2,
+              10 * fit_measurement(data, anodised_options()).chi2);
+    EXPECT_EQ(decision_on(simulated(find_material("Cu-McPeak"), 1), {}, "global search").choice,
+              "none");
+}
+
+}  // namespace
+}  // namespace drude
