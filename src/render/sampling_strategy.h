@@ -14,9 +14,6 @@ struct SamplingStrategy {
         light,
         // Both, weighted by the power heuristic.
         both
-
-        bool
-        operator==(const SamplingStrategy&) const = default;
     };
     Directions directions = Directions::both;
     // Environments: luminance less its mean (see Environment), or luminance itself.
