@@ -81,8 +81,8 @@ Reflection<T> reflect(const ThinFilm<T>* films, int count, const ComplexIndex<T>
         s = film_detail::above_film(q, s, gone, left);
         p = film_detail::above_film(q / film_detail::squared(films[j].index), p, gone, left);
     }
-    return reflection_from_amplitudes(Amplitudes<T>{film_detail::amplitude(cos_theta, s),
-                                                    film_detail::amplitude(cos_theta, p)});
+    return reflection_from_amplitudes(
+        Amplitudes<T>{film_detail::amplitude(cos_theta, s), film_detail::amplitude(cos_theta, p)});
 }
 
 }  // namespace drude

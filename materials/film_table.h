@@ -54,9 +54,10 @@ class FilmTable {
     FilmTable(const Material& material, int lanes, const ForEach& for_each = one_by_one);
 
     bool empty() const { return rows_.empty(); }
-    // The largest error in any of Rs, Rp, C and S of interpolating between the angles, as looked for
-    // at 32 wavelengths. Above film_table_tolerance where even the largest table is too coarse: in a
-    // clear film that light enters under almost the critical angle, which is a resonator there.
+    // The largest error in any of Rs, Rp, C and S of interpolating between the angles, as looked
+    // for at 32 wavelengths. Above film_table_tolerance where even the largest table is too coarse:
+    // in a clear film that light enters under almost the critical angle, which is a resonator
+    // there.
     double interpolation_error() const { return interpolation_error_; }
     // Number of angles less one, and bytes held.
     int intervals() const { return intervals_; }

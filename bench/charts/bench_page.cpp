@@ -77,6 +77,13 @@ void show(const BenchTable& table, Page* page) {
     page->table(shown);
 }
 
+// On its own a plot takes black or white for its text by the reader's preference.
+std::string standalone(std::string svg) {
+    svg.insert(svg.find('>') + 1,
+               "<style>svg{color:#111}@media(prefers-color-scheme:dark){svg{color:#ddd}}</style>");
+    return svg;
+}
+
 }  // namespace
 
 std::string bench_page(const std::vector<BenchSection>& sections) {
@@ -106,11 +113,11 @@ std::vector<std::string> write_bench_files(const std::string& folder, const Benc
     };
     for (const Chart& chart : result.charts) {
         write(chart.id + ".csv", chart_csv(chart));
-        write(chart.id + ".svg", chart_svg(chart));
+        write(chart.id + ".svg", standalone(chart_svg(chart)));
     }
     for (const StabilityMap& map : result.maps) {
         write(map.id + ".csv", map_csv(map));
-        write(map.id + ".svg", map_svg(map));
+        write(map.id + ".svg", standalone(map_svg(map)));
     }
     for (const BenchTable& table : result.tables) {
         std::string text = csv_line(table.columns);

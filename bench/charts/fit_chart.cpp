@@ -58,6 +58,7 @@ Chart constants_chart(const std::vector<FitRuns>& all, const std::string& varied
     chart.title = varied == "noise" ? "Fit: error of n and k against the noise"
                                     : "Fit: error of n and k against the number of " + varied;
     chart.cost = cost_label(varied);
+    chart.is_cost = varied != "noise";
     chart.error = "relative error of n + ik (rms)";
     chart.caption = caption(varied, seeds);
     chart.curves = fit_curves(all, varied, fit_constants_error);
@@ -83,6 +84,7 @@ Chart picture_chart(const std::vector<FitRuns>& all, const std::string& varied, 
     chart.title = fmt::format("Fit: picture of a sphere ({}) against the {}", name,
                               varied == "noise" ? "noise" : "number of " + varied);
     chart.cost = cost_label(varied);
+    chart.is_cost = varied != "noise";
     chart.error = "mean colour error (CIEDE2000)";
     chart.caption = caption(varied, seeds) +
                     " The picture is integrated exactly, its brightest ring is white, and 1 is "

@@ -91,6 +91,7 @@ Chart energy_chart(const Cells& cells) {
     chart.id = "microfacet-energy";
     chart.title = "Microfacets: light that single scattering loses";
     chart.cost = half_height_label;
+    chart.is_cost = false;
     chart.error = "energy lost by a sphere of perfect mirrors";
     chart.caption = std::string(integration) +
                     "Facets that reflect everything under a sky all around: what is lost is the "
@@ -127,6 +128,7 @@ Chart masking_chart(const Cells& cells, const FacetReflectance& copper) {
     chart.id = "microfacet-masking";
     chart.title = "Microfacets: v-grooves instead of Smith's masking";
     chart.cost = half_height_label;
+    chart.is_cost = false;
     chart.error = "mean colour difference (CIEDE2000)";
     chart.caption = std::string(integration) +
                     "Copper (Cu-McPeak) with one masking against the other; the sky is white, and "
@@ -164,6 +166,7 @@ Chart darkening_chart(const Cells& cells) {
     chart.id = "microfacet-picture";
     chart.title = "Microfacets: what the lost light does to pictures of metals";
     chart.cost = half_height_label;
+    chart.is_cost = false;
     chart.error = "relative darkening of the sphere";
     chart.caption = std::string(integration) +
                     "Trowbridge-Reitz with Smith's masking; the reference adds what further "

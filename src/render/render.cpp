@@ -178,10 +178,10 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
     summary.warnings.insert(summary.warnings.end(), lights.warnings().begin(),
                             lights.warnings().end());
     if (scene.max_depth > most_certain_bounces) {
-        summary.warnings.push_back(
-            fmt::format("maxdepth is {}: paths of more than {} bounces end at random, so that light "
-                        "which comes over more mirrors is noise",
-                        scene.max_depth, most_certain_bounces));
+        summary.warnings.push_back(fmt::format(
+            "maxdepth is {}: paths of more than {} bounces end at random, so that light "
+            "which comes over more mirrors is noise",
+            scene.max_depth, most_certain_bounces));
     }
     if (lights.empty()) summary.warnings.push_back("the scene has no light; the picture is black");
     const CameraRays camera(scene.camera, scene.film.width, scene.film.height);

@@ -168,7 +168,8 @@ TEST(StabilityCorners, TanSquaredPsiSaysWhereItsStandardDeviationsFail) {
     const auto warns = [&](const FitOptions& with) {
         const FitResult fit = fit_measurement(simulate_ellipsometer(material, setup), with);
         for (const std::string& warning : fit.warnings) {
-            if (warning.find("a standard deviation is above a tenth of n or k") != std::string::npos) {
+            if (warning.find("a standard deviation is above a tenth of n or k") !=
+                std::string::npos) {
                 return true;
             }
         }

@@ -76,7 +76,7 @@ class FilmCommand : public testing::Test {
 // while a checkpoint is written, while the picture is.
 TEST_F(FilmCommand, KilledAtAnyMomentAndResumedIsTheUndisturbedPicture) {
     std::mt19937 generator(17);
-    for (const std::string how : {"--spp 768 --stokes", "--error 0.008 --spectral"}) {
+    for (const std::string how : {"--spp 768 --stokes", "--error 0.004 --spectral"}) {
         SCOPED_TRACE(how);
         const double whole = seconds_of("render s.pbrt -q -o whole.exr " + how);
         int killed = 0, resumed = 0;
