@@ -1,7 +1,7 @@
 // How much dearer a whole render is than the ray queries in it.
 //
 //   ray_replay [--beta B] [--environment FILE|courtyard] [--size PIXELS] [--spp N] [--pairs N]
-//              [--transport auto|scalar|intensity|stokes]
+//              [--transport auto|scalar|intensity|stokes] [--rays needed|every]
 //
 // A copper half-sphere (analytic, cut at its rim) in a lat-long environment, one thread, 8
 // wavelengths a path, stored variance on. The linker sends the renderer's rtcIntersect1 and
@@ -11,7 +11,8 @@
 // are the medians of the pairs' ratio and times, Embree's Mrays/s in the replay, and that of the
 // same rays against a bare user-geometry sphere in float, cut at the same height, in a scene of its
 // own. The same once more by the processor's clock, which other programs on the machine disturb
-// less; there the rendering loop is the whole call less one with a single sample.
+// less; there the rendering loop is the whole call less one with a single sample. Rays that are
+// known to meet nothing are traced with --rays every only.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -198,7 +199,7 @@ class BareSphere {
 
 struct Options {
     double beta = 0;
-    std::string environment = "courtyard", transport = "auto";
+    std::string environment = "courtyard", transport = "auto", rays = "needed";
     int size = 512, samples = 64, pairs = 11;
 };
 
@@ -219,6 +220,11 @@ Options parse(int argc, char** argv) {
             options.environment = value;
         } else if (name == "--transport") {
             options.transport = value;
+        } else if (name == "--rays") {
+            if (value != "needed" && value != "every") {
+                user_error("ray_replay: --rays {}: expected 'needed' or 'every'", value);
+            }
+            options.rays = value;
         } else if (name == "--size") {
             options.size = positive();
         } else if (name == "--spp") {
@@ -227,7 +233,7 @@ Options parse(int argc, char** argv) {
             options.pairs = positive();
         } else {
             user_error(
-                "ray_replay: no option '{}'; there are --beta, --environment, --transport, "
+                "ray_replay: no option '{}'; there are --beta, --environment, --transport, --rays, "
                 "--size, --spp and --pairs",
                 name);
         }
@@ -259,6 +265,7 @@ void run(const Options& options) {
     render_options.wavelengths = 8;
     render_options.threads = 1;
     render_options.quiet = true;
+    render_options.trace_every_ray = options.rays == "every";
     if (options.transport == "scalar") render_options.transport = Transport::scalar;
     if (options.transport == "intensity") render_options.transport = Transport::intensity;
     if (options.transport == "stokes") {

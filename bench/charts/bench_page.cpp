@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "base/files.h"
 #include "bench/charts/csv.h"
@@ -108,6 +110,9 @@ std::vector<std::string> write_bench_files(const std::string& folder, const Benc
     make_folder(folder);
     std::vector<std::string> files;
     const auto write = [&](const std::string& name, const std::string& text) {
+        if (std::find(files.begin(), files.end(), name) != files.end()) {
+            throw std::logic_error("two results are called " + name);
+        }
         write_file(folder + "/" + name, text);
         files.push_back(name);
     };

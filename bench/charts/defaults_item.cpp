@@ -94,7 +94,7 @@ void grant_rounding(Image* image) {
 
 BenchTable table_of(const std::vector<Compared>& all) {
     BenchTable table;
-    table.id = "defaults";
+    table.id = "defaults-scenes";
     table.caption =
         "What is chosen by itself against the richest model of the same picture, at the same "
         "number of samples: medians of the processor time of one thread, relative errors that the "

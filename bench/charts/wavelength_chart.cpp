@@ -165,12 +165,14 @@ void add_findings(const Subject& subject, Experiment* e) {
     std::string text =
         fmt::format("With {} samples a pixel, error and time for the error of {}:", samples.back(),
                     method_name(e->automatic));
+    const char* separator = "";
     for (const int count : counts) {
         if (!has_curve(chart, count)) continue;
         const ChartCurve& curve = curve_of(chart, count);
         text +=
-            fmt::format("{} {}: Delta E {:.3g}, {:.2f} times the time", count == 1 ? "" : ";",
+            fmt::format("{} {}: Delta E {:.3g}, {:.2f} times the time", separator,
                         method_name(count), curve.points.back().error, time_ratio(curve, usual));
+        separator = ";";
     }
     chart.findings.push_back(text + ".");
     chart.findings.push_back(

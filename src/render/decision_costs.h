@@ -18,6 +18,6 @@ double wavelengths_cost(Transport transport, int wavelengths);
 
 // Nanoseconds of one reflection at 8 wavelengths: off bare metal by formula, off a film's table,
 // off a film of one layer by formula without any average.
-inline constexpr double bare_ns = 20, film_table_ns = 28, film_formula_ns = 80;
+inline constexpr double bare_ns = 20, film_table_ns = 28, film_formula_ns = 96;
 
 }  // namespace drude
