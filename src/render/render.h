@@ -27,7 +27,7 @@ struct RenderOptions {
     std::optional<Transport> transport;  // otherwise the cheapest exact one
     bool stokes = false;                 // layers S0..S3; needs the stokes transport
     bool spectral = false;               // 10 nm layers in the JCGT layout (Fichet et al. 2021)
-    int wavelengths = 0;                 // a path: 8, 16 or 40; 0: 8, or 40 with `spectral`
+    int wavelengths = 0;                 // a path: 4, 8, 16 or 40; 0: wavelength_choice.h
     // Richer or poorer models than the cheapest that the scene needs (decisions.h):
     FilmUse films = FilmUse::automatic;
     std::optional<double>
