@@ -60,8 +60,8 @@ BenchSection section_of(const std::vector<MeasuredPoint>& points) {
                          [&](const Chart& c) { return c.id == point.chart; })) {
             Chart chart;
             chart.id = chart.title = point.chart;
-            chart.cost = "cost";
-            chart.error = "error";
+            chart.cost = "time (s)";
+            chart.error = "error, as the script defines it";
             add_points(points, &chart);
             charts.push_back(std::move(chart));
         }
@@ -176,7 +176,8 @@ Command bench_command() {
         "within which a bound is kept, and where the program refuses to answer; the exit status "
         "is 1 where a map's domain does not hold.\n\n"
         "--with adds what other programs measured to the charts they belong to: CSV files that "
-        "the scripts of bench/peers write.";
+        "the scripts of bench/peers write. Points of a chart that is not measured here make one of "
+        "their own, their cost in seconds.";
     command.example =
         "drude bench --list\n"
         "drude bench fresnel -o bench-out --quick\n"
