@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/executor.h"
+#include "base/files.h"
 #include "base/interrupt.h"
 #include "base/numbers.h"
 #include "base/sha256.h"
@@ -116,6 +117,8 @@ void write_and_report(const Options& options, const RenderOptions& render_option
     }
     const bool is_shard = render_options.shards > 1;
     const bool writes = is_shard ? !summary.interrupted : summary.batches > 0;
+    // Of a run that was killed while it wrote this very picture.
+    if (writes) remove_abandoned_files(options.output);
     if (writes && is_shard) {
         write_partial(options.output, film->part, film->sums, render_options.command_line);
     } else if (writes) {

@@ -200,6 +200,18 @@ TEST_F(FilmCommand, ResumingAnotherPictureIsRefused) {
     expect_same("whole.exr", "c.exr");
 }
 
+TEST_F(FilmCommand, ClearsAwayWhatARunLeftThatWasKilledWhileItWroteThePicture) {
+    const pid_t child = fork();
+    if (child == 0) _exit(0);
+    waitpid(child, nullptr, 0);  // no process has its number now
+    const std::string left = ".part." + std::to_string(child) + "-15.tmp.exr";
+    for (const char* how : {"--spp 16", "--spp 32 --resume", "--spp 32 --shard 0/2"}) {
+        write_text(folder_.file(left), "half a picture");
+        ASSERT_EQ(run(std::string("render s.pbrt -q -o part.exr ") + how).status, 0) << how;
+        EXPECT_FALSE(exists(left)) << how;
+    }
+}
+
 TEST_F(FilmCommand, CheckpointsDoNotChangeThePicture) {
     ASSERT_EQ(run("render s.pbrt -q --spp 256 -o a.exr --checkpoint 0").status, 0);
     const ProgramRun often = run("render s.pbrt -q --spp 256 -o b.exr --checkpoint 0.05 --json");
