@@ -1,5 +1,6 @@
 // drude capture and drude reduce as people and scripts call them, on the virtual bench.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -135,12 +136,21 @@ TEST(Capture, WrongRequestsSayWhatToDo) {
 
 TEST(Capture, AnInterruptLeavesAJournalToGoOnWith) {
     const TemporaryFolder folder;
-    // Long enough that the signal meets it under way; where it does not, there is nothing to see.
-    const std::string sweep =
-        "capture --instrument virtual:Cu-McPeak --steps 360 --averages 8 -q -o m.csv";
-    const ProgramRun run = run_drude(folder, sweep + " & sleep 1; kill -TERM $!; wait $!", "");
-    EXPECT_EQ(run.status, 143) << run.err;
-    EXPECT_NE(run.err.find("--resume goes on"), std::string::npos) << run.err;
+    // Far from its end when the first frames are in the journal.
+    const int status = run_and_signal(folder,
+                                      {"capture", "--instrument", "virtual:Cu-McPeak", "--steps",
+                                       "360", "--averages", "64", "-q", "-o", "m.csv"},
+                                      SIGTERM, [&] {
+                                          EXPECT_TRUE(wait_until([&] {
+                                              std::error_code missing;
+                                              const auto bytes = std::filesystem::file_size(
+                                                  folder.file("m.journal"), missing);
+                                              return !missing && bytes > 100000;
+                                          }));
+                                      });
+    const std::string said = read_text(folder.file(".err"));
+    EXPECT_EQ(status, 143) << said;
+    EXPECT_NE(said.find("--resume goes on"), std::string::npos) << said;
     EXPECT_FALSE(std::filesystem::exists(folder.file("m.csv")));
     expect_words(run_drude(folder, "reduce m.journal -o n.csv"), 2, {"--resume"});
 }
