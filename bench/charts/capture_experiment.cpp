@@ -63,16 +63,6 @@ Angles true_angles(const Material& metal, const std::vector<double>& pixels_nm,
 
 }  // namespace
 
-VirtualBenchSettings noise_only_bench_settings(uint64_t seed) {
-    VirtualBenchSettings settings;
-    settings.seed = seed;
-    settings.electrons_per_count = 2;
-    settings.read_noise_counts = 15;
-    settings.dark_counts = 1500;
-    settings.dark_counts_per_s = 200;
-    return settings;
-}
-
 CaptureOutcome capture_outcome(const std::string& set, const VirtualBenchSettings& settings,
                                const Recipe& recipe) {
     const Material metal = material_from_set(published_set(set));

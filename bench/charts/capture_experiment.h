@@ -10,9 +10,6 @@
 
 namespace drude {
 
-// Photon and read noise and a dark, and nothing else wrong.
-VirtualBenchSettings noise_only_bench_settings(uint64_t seed);
-
 struct CaptureOutcome {
     double seconds = 0;                      // by the bench's clock, homing and darks included
     double moving_s = 0, integrating_s = 0;  // parts of it

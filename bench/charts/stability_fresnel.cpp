@@ -75,6 +75,18 @@ std::vector<float> telling_cosines(double n, double k, int resolution) {
     return cosines;
 }
 
+// Cells over n and k: the worst of the telling angles.
+void fill_with_worst_over_angles(int resolution, StabilityMap* map) {
+    fill_map(map, [&](double n, double k) {
+        MapCell cell;
+        for (const float cosine : telling_cosines(n, k, resolution)) {
+            keep_worst(plain_error({static_cast<float>(n), static_cast<float>(k), cosine}),
+                       &cell.error);
+        }
+        return cell;
+    });
+}
+
 StabilityMap grazing_map(int resolution) {
     StabilityMap map;
     map.id = "fresnel-grazing";
@@ -118,14 +130,7 @@ StabilityMap index_map(int resolution) {
         "the cosine; away from it the error is that of map fresnel-metals.";
     map.x = {"n", log_steps(1e-3, 1e2, resolution)};
     map.y = {"k", log_steps(1e-6, 1e2, resolution)};
-    fill_map(&map, [&](double x, double y) {
-        MapCell cell;
-        for (const float cosine : telling_cosines(x, y, resolution)) {
-            keep_worst(plain_error({static_cast<float>(x), static_cast<float>(y), cosine}),
-                       &cell.error);
-        }
-        return cell;
-    });
+    fill_with_worst_over_angles(resolution, &map);
     return map;
 }
 
@@ -143,14 +148,7 @@ StabilityMap metals_map(int resolution) {
         "worst over the angles.";
     map.x = {"n", log_steps(1e-3, 1e2, resolution)};
     map.y = {"k", log_steps(0.05, 1e2, resolution)};
-    fill_map(&map, [&](double x, double y) {
-        MapCell cell;
-        for (const float cosine : telling_cosines(x, y, resolution)) {
-            keep_worst(plain_error({static_cast<float>(x), static_cast<float>(y), cosine}),
-                       &cell.error);
-        }
-        return cell;
-    });
+    fill_with_worst_over_angles(resolution, &map);
     return map;
 }
 

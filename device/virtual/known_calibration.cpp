@@ -20,13 +20,18 @@ std::vector<double> nonlinearity_correction(double nonlinearity, uint32_t max_co
     return coefficients;
 }
 
-VirtualBenchSettings ordinary_bench_settings(uint64_t seed) {
+VirtualBenchSettings noise_only_bench_settings(uint64_t seed) {
     VirtualBenchSettings settings;
     settings.seed = seed;
     settings.electrons_per_count = 2;
     settings.read_noise_counts = 15;
     settings.dark_counts = 1500;
     settings.dark_counts_per_s = 200;
+    return settings;
+}
+
+VirtualBenchSettings ordinary_bench_settings(uint64_t seed) {
+    VirtualBenchSettings settings = noise_only_bench_settings(seed);
     settings.nonlinearity = -0.02;
     settings.reported_nonlinearity =
         nonlinearity_correction(settings.nonlinearity, settings.max_counts);

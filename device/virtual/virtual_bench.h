@@ -33,6 +33,9 @@ using FaultInjection = std::function<void(uint64_t transfer, const char* part)>;
 Bench make_virtual_bench(const Material& sample, const VirtualBenchSettings& settings,
                          FaultInjection faults = {});
 
+// Photon and read noise and a dark, and nothing else wrong.
+VirtualBenchSettings noise_only_bench_settings(uint64_t seed);
+
 // A bench of ordinary parts: noise, dark, drift, offsets, extinction, non-linearity with the
 // correction that its maker would have stored, and jitter of the values that virtual_optics.h names
 // in parentheses. What `virtual:MATERIAL` is.

@@ -8,6 +8,7 @@
 
 #include "materials/dielectric.h"
 #include "materials/film_stack.h"
+#include "materials/quadrature.h"
 #include "render/convexity.h"
 #include "render/optical_elements.h"
 
@@ -58,12 +59,12 @@ double seen_mean(const SpectrumValue& value) {
 // Twice the integral over cosine times reflectance, by Gauss-Legendre with 4 nodes on [0, 1].
 template <class Reflectance>
 double hemispherical(const Reflectance& reflectance) {
-    constexpr double node[4] = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
-                                0.93056815579702629};
-    constexpr double weight[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
-                                  0.17392742256872693};
+    static const QuadratureRule rule = gauss_legendre(4);
     double sum = 0;
-    for (int i = 0; i < 4; ++i) sum += 2 * weight[i] * node[i] * reflectance(node[i]);
+    for (size_t i = 0; i < rule.x.size(); ++i) {
+        const double cosine = (1 - rule.x[i]) / 2;
+        sum += rule.weight[i] * cosine * reflectance(cosine);
+    }
     return sum;
 }
 

@@ -9,7 +9,7 @@
 #include "fitter/fit.h"
 #include "fitter/fitted_material.h"
 #include "fitter/row_residuals.h"
-#include "materials/effective_medium.h"
+#include "materials/porous_film.h"
 
 namespace drude {
 
@@ -25,19 +25,15 @@ Material anodised(const VirtualBenchSettings& bench) {
     material.name = "anodised aluminium";
     FilmLayer layer;
     layer.thickness_nm = thickness_nm;
+    std::vector<double> wavelengths_nm;
+    for (double nm = std::floor(bench.first_nm); nm <= std::ceil(bench.last_nm); ++nm) {
+        wavelengths_nm.push_back(nm);
+    }
+    layer.constants = porous_constants(published_set(film_set), porosity, wavelengths_nm);
     layer.constants.name = "porous alumina";
     layer.constants.material = "Al2O3";
-    layer.constants.kind = "calculated";
     layer.constants.citation =
         fmt::format("Bruggeman mixture of {} with {} % pores", film_set, 100 * porosity);
-    for (double nm = std::floor(bench.first_nm); nm <= std::ceil(bench.last_nm); ++nm) {
-        const Index dense = published_set(film_set).at(nm);
-        const auto index =
-            bruggeman(ComplexIndex<double>{dense.n, dense.k}, ComplexIndex<double>{1, 0}, porosity);
-        layer.constants.wavelength_nm.push_back(nm);
-        layer.constants.n.push_back(index.n);
-        layer.constants.k.push_back(index.k);
-    }
     material.layers = {layer};
     return material;
 }

@@ -93,13 +93,8 @@ class Drawing {
     void head() {
         // The legend stands beneath the axes, a line each.
         const int lines = !map_.hatched.empty() + !map_.outside.empty();
-        add(R"(<svg xmlns="http://www.w3.org/2000/svg" class="plot" viewBox="0 0 {0} {1}" )"
-            R"(width="{0}" height="{1}" role="img" aria-labelledby="{2}-t {2}-d" )"
-            R"(font-family="system-ui,sans-serif" font-size="13" fill="currentColor">)",
-            map_.width, map_.height + 20 * lines, id_);
-        add(R"(<title id="{0}-t">{1}</title><desc id="{0}-d">{2}</desc>)", id_,
-            escape_markup(map_.title),
-            escape_markup(map_.description.empty() ? map_.title : map_.description));
+        out_ = svg_head(id_, map_.width, map_.height + 20 * lines, map_.title,
+                        map_.description.empty() ? map_.title : map_.description);
         add(R"(<defs><pattern id="{}-h" width="6" height="6" patternUnits="userSpaceOnUse">)"
             R"(<path d="M0 6L6 0" stroke="currentColor" opacity="0.5"/></pattern></defs>)",
             id_);

@@ -1,5 +1,7 @@
 #include "report/markup.h"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <cstdint>
 
@@ -104,6 +106,16 @@ std::string identifier(std::string_view text) {
     }
     while (!out.empty() && out.back() == '-') out.pop_back();
     return out.empty() ? "part" : out;
+}
+
+std::string svg_head(const std::string& id, double width, double height, std::string_view title,
+                     std::string_view description) {
+    return fmt::format(
+        R"(<svg xmlns="http://www.w3.org/2000/svg" class="plot" viewBox="0 0 {0:.0f} {1:.0f}" )"
+        R"(width="{0:.0f}" height="{1:.0f}" role="img" aria-labelledby="{2}-t {2}-d" )"
+        R"(font-family="system-ui,sans-serif" font-size="{3}" fill="currentColor">)"
+        R"(<title id="{2}-t">{4}</title><desc id="{2}-d">{5}</desc>)",
+        width, height, id, svg_font_size, escape_markup(title), escape_markup(description));
 }
 
 }  // namespace drude

@@ -14,7 +14,7 @@ namespace drude {
 
 namespace {
 
-constexpr int font_size = 13;
+constexpr int font_size = svg_font_size;
 
 struct Spot {
     double x = 0, y = 0;
@@ -47,12 +47,8 @@ class SurfaceDrawing {
         const std::string id = identifier(plot_.id);
         const std::string title = escape_markup(plot_.title);
         const int height = plot_.height + (plot_.grid_name.empty() ? 0 : 24);
-        add(R"(<svg xmlns="http://www.w3.org/2000/svg" class="plot" viewBox="0 0 {0} {1}" )"
-            R"(width="{0}" height="{1}" role="img" aria-labelledby="{2}-t {2}-d" )"
-            R"(font-family="system-ui,sans-serif" font-size="{3}" fill="currentColor">)",
-            plot_.width, height, id, font_size);
-        add(R"(<title id="{0}-t">{1}</title><desc id="{0}-d">{2}</desc>)", id, title,
-            escape_markup(plot_.description.empty() ? plot_.title : plot_.description));
+        out_ = svg_head(id, plot_.width, height, plot_.title,
+                        plot_.description.empty() ? plot_.title : plot_.description);
         if (!title.empty())
             add(R"(<text x="14" y="18" font-weight="600" font-size="{}">{}</text>)", font_size + 2,
                 title);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<const char*, 8> palette = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                 "#e69f00", "#56b4e9", "#8c7500", "#555555"};
-constexpr int font_size = 13;
+constexpr int font_size = svg_font_size;
 constexpr double legend_line = 20;
 
 std::string paint(int colour) {
@@ -45,12 +45,8 @@ class Drawing {
     std::string svg() {
         const std::string id = identifier(plot_.id);
         const std::string title = plot_.title.empty() ? plot_.y.label : plot_.title;
-        add(R"(<svg xmlns="http://www.w3.org/2000/svg" class="plot" viewBox="0 0 {} {:.0f}" )"
-            R"(width="{}" height="{:.0f}" role="img" aria-labelledby="{}-t {}-d" )"
-            R"(font-family="system-ui,sans-serif" font-size="{}" fill="currentColor">)",
-            plot_.width, total_height_, plot_.width, total_height_, id, id, font_size);
-        add(R"(<title id="{}-t">{}</title><desc id="{}-d">{}</desc>)", id, escape_markup(title), id,
-            escape_markup(plot_.description.empty() ? title : plot_.description));
+        out_ = svg_head(id, plot_.width, total_height_, title,
+                        plot_.description.empty() ? title : plot_.description);
         add(R"(<defs><clipPath id="{}-c"><rect x="{:.2f}" y="{:.2f}" width="{:.2f}" )"
             R"(height="{:.2f}"/></clipPath></defs>)",
             id, left_, top_, right_ - left_, bottom_ - top_);

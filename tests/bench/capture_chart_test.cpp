@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/charts/capture_experiment.h"
+#include "device/virtual/virtual_bench.h"
 
 namespace drude {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/numbers.h"
 #include "device/virtual/ellipsometer_simulation.h"
 #include "fitter/fit.h"
-#include "materials/effective_medium.h"
+#include "materials/porous_film.h"
 
 namespace drude {
 
@@ -17,16 +17,8 @@ inline Material anodised(double thickness_nm, double porosity,
     Material material = find_material("Al-Rakic");
     FilmLayer layer;
     layer.thickness_nm = thickness_nm;
+    layer.constants = porous_constants(published_set("Al2O3-Malitson-o"), porosity, wavelengths_nm);
     layer.constants.name = "porous alumina";
-    layer.constants.kind = "calculated";
-    for (const double nm : wavelengths_nm) {
-        const Index dense = published_set("Al2O3-Malitson-o").at(nm);
-        const auto index =
-            bruggeman(ComplexIndex<double>{dense.n, dense.k}, ComplexIndex<double>{1, 0}, porosity);
-        layer.constants.wavelength_nm.push_back(nm);
-        layer.constants.n.push_back(index.n);
-        layer.constants.k.push_back(index.k);
-    }
     material.layers = {layer};
     return material;
 }
