@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <numbers>
 
 #include "base/error.h"
@@ -24,8 +25,9 @@ unsigned previous(unsigned h) {
 class Surface {
   public:
     Surface(std::vector<glm::dvec3> positions, std::vector<glm::uvec3> faces)
-        : positions_(std::move(positions)), faces_(std::move(faces)) {
+        : Surface(std::move(positions), std::move(faces), {}) {
         join();
+        begin_rings();
     }
 
     void check_vertices() const {
@@ -42,6 +44,13 @@ class Surface {
                     v);
             }
         }
+    }
+
+    // Two triangles that share all their edges pass as a surface; each one's middle triangle then
+    // has the edges of the other's, which the first split is joined anew to find.
+    Surface split_and_join() const {
+        Surface finer = split();
+        return Surface(std::move(finer.positions_), std::move(finer.faces_));
     }
 
     Surface split() const {
@@ -77,13 +86,16 @@ class Surface {
             faces.push_back(m);
             for (int i = 0; i < 3; ++i) faces.emplace_back(faces_[f][i], m[i], m[(i + 2) % 3]);
         }
-        return Surface(std::move(points), std::move(faces));
+        Surface finer(std::move(points), std::move(faces), split_twins());
+        finer.begin_rings();
+        return finer;
     }
 
     TriangleMesh limit() const {
         TriangleMesh mesh;
         mesh.triangles = faces_;
         std::vector<glm::dvec3> around;
+        Directions directions;
         for (unsigned v = 0; v < positions_.size(); ++v) {
             if (first_[v] == none) {
                 mesh.positions.emplace_back(positions_[v]);
@@ -93,12 +105,51 @@ class Surface {
             const bool is_boundary = ring(v, around);
             mesh.positions.emplace_back(is_boundary ? boundary_limit(v, around)
                                                     : inner_limit(v, around));
-            mesh.normals.emplace_back(normal(v, around, is_boundary));
+            mesh.normals.emplace_back(normal(v, around, is_boundary, &directions));
         }
         return mesh;
     }
 
   private:
+    Surface(std::vector<glm::dvec3> positions, std::vector<glm::uvec3> faces,
+            std::vector<unsigned> twins)
+        : positions_(std::move(positions)), faces_(std::move(faces)), twin_(std::move(twins)) {}
+
+    // The twins after split(), whose face 4 f is the middle of face f and 4 f + 1 + i the part at
+    // its corner i: within f, edge j of the middle is edge 1 of the part at corner j + 1. Half-edge
+    // i of f is edge 0 of the part at its start and then edge 2 of the part at its end.
+    std::vector<unsigned> split_twins() const {
+        std::vector<unsigned> twins(4 * twin_.size(), none);
+        const auto part = [](unsigned h) { return 3 * (4 * (h / 3) + 1 + h % 3); };
+        for (unsigned h = 0; h < half_edges(); ++h) {
+            const unsigned middle = 12 * (h / 3) + h % 3, beside = part(next(h)) + 1;
+            twins[middle] = beside;
+            twins[beside] = middle;
+            if (twin_[h] == none) continue;
+            twins[part(h)] = part(next(twin_[h])) + 2;
+            twins[part(next(h)) + 2] = part(twin_[h]);
+        }
+        return twins;
+    }
+
+    // For a ring of n vertices cosine and sine of 2 pi i / n, kept since nearly all rings are of 6.
+    class Directions {
+      public:
+        const std::vector<glm::dvec2>& of(size_t n) {
+            if (n >= known_.size()) known_.resize(n + 1);
+            std::vector<glm::dvec2>& all = known_[n];
+            for (size_t i = all.size(); i < n; ++i) {
+                const double angle =
+                    2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
+                all.emplace_back(std::cos(angle), std::sin(angle));
+            }
+            return all;
+        }
+
+      private:
+        std::vector<std::vector<glm::dvec2>> known_;
+    };
+
     static double beta(size_t valence) {
         return valence == 3 ? 3.0 / 16 : 3 / (8 * static_cast<double>(valence));
     }
@@ -111,7 +162,7 @@ class Surface {
     unsigned half_edges() const { return static_cast<unsigned>(3 * faces_.size()); }
     unsigned start(unsigned h) const { return faces_[h / 3][static_cast<int>(h % 3)]; }
 
-    // Finds each half-edge's twin, and for each vertex the half-edge its ring starts with.
+    // Finds each half-edge's twin.
     void join() {
         struct Entry {
             unsigned low, high, half_edge;
@@ -152,6 +203,10 @@ class Surface {
             }
             i = end;
         }
+    }
+
+    // Finds for each vertex the half-edge its ring starts with.
+    void begin_rings() {
         first_.assign(positions_.size(), none);
         for (unsigned h = 0; h < half_edges(); ++h) {
             // A boundary's ring starts at the boundary.
@@ -211,18 +266,18 @@ class Surface {
 
     // Across two tangents, turned to the side that the triangles face. Inside they are the ring
     // times cosine and sine (Loop 1987).
-    glm::dvec3 normal(unsigned v, const std::vector<glm::dvec3>& around, bool is_boundary) const {
+    glm::dvec3 normal(unsigned v, const std::vector<glm::dvec3>& around, bool is_boundary,
+                      Directions* directions) const {
         const size_t n = around.size();
         glm::dvec3 s(0), t(0), faces(0);
         for (size_t i = 0; i + (is_boundary ? 1 : 0) < n; ++i) {
             faces += glm::cross(around[i] - positions_[v], around[(i + 1) % n] - positions_[v]);
         }
         if (!is_boundary) {
+            const std::vector<glm::dvec2>& to = directions->of(n);
             for (size_t i = 0; i < n; ++i) {
-                const double angle =
-                    2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
-                s += std::cos(angle) * around[i];
-                t += std::sin(angle) * around[i];
+                s += to[i].x * around[i];
+                t += to[i].y * around[i];
             }
         } else {
             s = around.back() - around.front();
@@ -263,7 +318,9 @@ TriangleMesh subdivide_loop(const std::vector<glm::dvec3>& positions,
     }
     Surface surface(positions, triangles);
     surface.check_vertices();
-    for (int level = 0; level < levels; ++level) surface = surface.split();
+    for (int level = 0; level < levels; ++level) {
+        surface = level == 0 ? surface.split_and_join() : surface.split();
+    }
     return surface.limit();
 }
 
