@@ -1,5 +1,5 @@
-# Read by ./reproduce, ./check, .ci/run and tests/long.sh: what the build needs, installed where it is
-# missing, and the build itself. Everything printed here goes to standard error.
+# Read by ./reproduce, ./check, .ci/run, tests/long and tests/long.d: what the build needs, installed
+# where it is missing, and the build itself. Everything printed here goes to standard error.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 

@@ -103,6 +103,7 @@ class Ladder {
 }  // namespace
 
 std::string small_gain(double gain) {
+    if (gain < 0) return fmt::format("BIC rises by {:.4g}", -gain);
     return fmt::format("BIC falls by {:.4g}, not by more than {:g}", gain, ladder_bic_gain);
 }
 

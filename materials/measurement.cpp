@@ -59,8 +59,8 @@ void check_row(const MeasurementRow& row, const Place& place) {
     const auto bound = [&](bool good, const char* what, double value, const char* range) {
         if (!good) user_error_at(place, "found {} = {}, expected {}", what, value, range);
     };
-    bound(row.wavelength_nm > 0 && std::isfinite(row.wavelength_nm), "wavelength_nm",
-          row.wavelength_nm, "a vacuum wavelength above 0");
+    bound(row.wavelength_nm >= 1 && std::isfinite(row.wavelength_nm), "wavelength_nm",
+          row.wavelength_nm, "a vacuum wavelength of at least 1 nm (0.55 micrometres are 550)");
     bound(row.angle_deg > 0 && row.angle_deg < 90, "angle_deg", row.angle_deg,
           "an angle of incidence above 0 and below 90");
     bound(row.psi_deg >= 0 && row.psi_deg <= 90, "psi_deg", row.psi_deg, "a value from 0 to 90");

@@ -8,7 +8,7 @@
 namespace drude {
 
 struct MeasurementRow {
-    double wavelength_nm = 0;    // vacuum, > 0
+    double wavelength_nm = 0;    // vacuum, at least 1: less was meant in micrometres
     double angle_deg = 0;        // of incidence, from the normal, in (0, 90)
     double psi_deg = 0;          // in [0, 90]
     double delta_deg = 0;        // any 360 degree window; kept as read

@@ -132,11 +132,11 @@ Calibration parse_calibration(const std::string& json, const std::string& file) 
     std::vector<std::string> allowed = {"format", "provenance"};
     for (const NamedNumber& named : numbers) allowed.emplace_back(named.key);
     for (const NamedCurve& named : curves) allowed.emplace_back(named.key);
-    root.allow_keys(allowed);
     if (const std::string found = root.at("format").string(); found != format_name) {
         user_error_at(root.at("format").place(), "found the format '{}', expected '{}'", found,
                       format_name);
     }
+    root.allow_keys(allowed);
     Calibration calibration;
     for (const NamedNumber& named : numbers) {
         if (root.has(named.key)) calibration.*named.number = root.at(named.key).number();

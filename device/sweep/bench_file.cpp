@@ -143,12 +143,13 @@ BenchFile parse_bench_file(const std::string& json, const std::string& path) {
     const std::vector<std::string> keys = {"format",      "name",     "spectrometer", "polariser",
                                            "analyser",    "retarder", "goniometer",   "head",
                                            "calibration", "virtual",  "scpi"};
-    root.allow_keys(keys);
+    // First the format: the keys of another kind of file are nobody's spelling mistakes.
     const JsonValue format = root.at("format");
     if (format.string() != format_name) {
         user_error_at(format.place(), "{} is '{}', expected '{}'", format.shown(), format.string(),
                       format_name);
     }
+    root.allow_keys(keys);
     BenchFile file;
     file.path = path;
     file.name =

@@ -159,7 +159,7 @@ Converted convert(const ConvertOptions& options) {
 int run_convert(const ConvertOptions& options, const CommonOptions& common) {
     const Converted converted = convert(options);
     for (const std::string& warning : converted.warnings) {
-        fmt::print(stderr, "warning: {}\n", warning);
+        fmt::print(stderr, "drude: warning: {}\n", warning);
     }
     if (common.json) {
         nlohmann::ordered_json document = {{"files", converted.files},

@@ -87,9 +87,9 @@ void DeclaredOptions::option(const std::string& spec, int& target, const std::st
     if (target != 0) added.default_text = fmt::format("{}", target);
     added.assign = [&target, name = added.name](const std::vector<std::string>& values) {
         const std::optional<long long> value = parse_integer(values.back());
-        if (!value || *value < std::numeric_limits<int>::min() ||
-            *value > std::numeric_limits<int>::max()) {
-            user_error("{}: found '{}', expected a whole number from {} to {}", name, values.back(),
+        if (!value) user_error("{}: found '{}', expected a whole number", name, values.back());
+        if (*value < std::numeric_limits<int>::min() || *value > std::numeric_limits<int>::max()) {
+            user_error("{}: found {}, expected a whole number from {} to {}", name, *value,
                        std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
         }
         target = static_cast<int>(*value);

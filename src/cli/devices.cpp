@@ -90,8 +90,8 @@ void print_text(const UsbListing& listing, bool all) {
         "virtual:Au-Johnson (drude materials lists the sets)\n");
     for (const UsbDevice& device : listing.devices) {
         if (device.family.name.empty() || device.problem.empty()) continue;
-        fmt::print(stderr, "warning: {:04x}:{:04x} on bus {:03}, device {:03}: {}\n", device.vendor,
-                   device.product, device.bus, device.address, device.problem);
+        fmt::print(stderr, "drude: warning: {:04x}:{:04x} on bus {:03}, device {:03}: {}\n",
+                   device.vendor, device.product, device.bus, device.address, device.problem);
         if (device.permitted) continue;
         fmt::print(stderr,
                    "  To let the user at this machine open it, put this line into\n"

@@ -174,7 +174,7 @@ Command eval_command() {
         return [values, &options, &common] {
             const Evaluation evaluation = evaluate(*values, options);
             for (const std::string& warning : evaluation.warnings) {
-                fmt::print(stderr, "warning: {}\n", warning);
+                fmt::print(stderr, "drude: warning: {}\n", warning);
             }
             common.json ? print_json(evaluation) : print_text(evaluation);
             return 0;

@@ -185,7 +185,7 @@ void check_combination(const FitCommandOptions& options, const OptionSet& given)
 }
 
 void warn(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& warning : warnings) fmt::print(stderr, "drude: warning: {}\n", warning);
 }
 
 // n and k are known; the lobe is what is asked for.

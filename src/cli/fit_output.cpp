@@ -264,7 +264,7 @@ void print_lobe_text(const LobeFitResult& lobes) {
                        fmt::format("< {:.5f}", lobe.upper_bound), "", lobe.chi2,
                        lobe.tied ? "  tied" : "");
         } else {
-            fmt::print("{:<18}{:>10.5f}  {:>9.5f}  {:>12.2f}{}\n", lobe_name(lobe.lobe), lobe.beta,
+            fmt::print("{:<18}{:>10.5f}  {:>9.2g}  {:>12.2f}{}\n", lobe_name(lobe.lobe), lobe.beta,
                        lobe.sigma_beta, lobe.chi2, lobe.tied ? "  tied" : "");
         }
     }

@@ -237,7 +237,8 @@ int run_like_the_paper(const PaperCommandOptions& options, const std::string& fi
         paper.literature = find_constants(options.literature, "--paper-start");
     }
     const PaperFit fit = fit_like_the_paper(measurement, paper);
-    for (const std::string& warning : fit.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& warning : fit.warnings)
+        fmt::print(stderr, "drude: warning: {}\n", warning);
     if (common.json) {
         ordered_json document = {{"model", "like-the-paper"}, {"measurement", file}};
         document.update(to_json(fit));

@@ -96,6 +96,12 @@ std::string manual_page(const std::vector<Command>& commands) {
         ".SH ENVIRONMENT\n"
         ".TP\n\\fBDRUDE_DEBUG\\fR\n"
         "Where set, an internal error tells what the program knows about it.\n"
+        ".TP\n\\fBDRUDE_PLUGIN_PATH\\fR\n"
+        "Folders, separated by colons, in which a scene's materials of unknown name are looked for "
+        "as plugins, NAME.so.\n"
+        ".TP\n\\fBDRUDE_MODULE_PATH\\fR\n"
+        "Folders, separated by colons, in which the program's own modules (pictures through "
+        "OpenImageIO, processes through Open MPI) are looked for before its own.\n"
         ".TP\n\\fBNO_COLOR\\fR\n"
         "Respected: nothing is printed in colour, with or without it.\n";
     return page;

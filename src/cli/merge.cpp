@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cli/command_list.h"
 #include "cli/json_output.h"
+#include "image/image.h"
 #include "render/film_merge.h"
 #include "render/transport_choice.h"
 
@@ -23,6 +24,7 @@ struct Options {
 
 int run(const Options& options, const CommonOptions& common) {
     if (options.output.empty()) user_error("merge: no output; name the picture with -o OUT.exr");
+    expect_exr_name("merge", options.output);
     const MergeResult result =
         merge_partials(options.parts, options.output, options.allow_mixed,
                        fmt::format("{}", fmt::join(common.command_line, " ")));
@@ -41,8 +43,8 @@ int run(const Options& options, const CommonOptions& common) {
                                            {"transport", transport_name(part.job.transport)},
                                            {"warnings", result.warnings}});
     } else {
-        fmt::print("{}: {} samples a pixel of {} parts\n", options.output, part.fewest * size,
-                   options.parts.size());
+        fmt::print("{}: {} samples a pixel of {} part{}\n", options.output, part.fewest * size,
+                   options.parts.size(), options.parts.size() == 1 ? "" : "s");
     }
     return 0;
 }

@@ -112,7 +112,13 @@ void check_value(const std::string& value, const DeclaredOption& option,
 // after it.
 void assign_words(const Words& words, DeclaredOptions& options, const std::string& command) {
     size_t next = 0, wanted_later = 0;
-    for (const DeclaredOption& option : options.all()) wanted_later += option.at_least;
+    for (const DeclaredOption& option : options.all()) {
+        wanted_later += option.at_least;
+        if (option.at_least == 1 && wanted_later > words.size()) {
+            user_error("{}: found no {}; 'drude help {}' shows an example", command, option.name,
+                       command);
+        }
+    }
     for (DeclaredOption& option : options.all()) {
         if (option.kind != DeclaredOption::Kind::word) continue;
         wanted_later -= option.at_least;
@@ -120,12 +126,8 @@ void assign_words(const Words& words, DeclaredOptions& options, const std::strin
         const size_t free = left > wanted_later ? left - wanted_later : 0;
         const size_t taken = option.repeats ? free : std::min<size_t>(1, free);
         if (taken < option.at_least) {
-            user_error("drude {}: found {} of {}, expected {}; 'drude help {}' shows an example",
-                       command, taken == 0 ? std::string("nothing") : fmt::format("{}", taken),
-                       option.name,
-                       option.at_least == 1 ? std::string("one")
-                                            : fmt::format("at least {}", option.at_least),
-                       command);
+            user_error("{}: found {} of {}, expected at least {}; 'drude help {}' shows an example",
+                       command, taken, option.name, option.at_least, command);
         }
         if (taken == 0) continue;
         const auto begin = words.begin() + static_cast<std::ptrdiff_t>(next);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -204,7 +205,18 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
     if (options.update && given.given("--seed")) {
         user_error("--seed: is of the new pictures; references have the manifest's own");
     }
+    if (!std::filesystem::exists(options.folder + "/manifest.json")) {
+        user_error(
+            "{}: found no manifest.json there, expected the folder of the references; run it in "
+            "the "
+            "checkout, or name the folder",
+            options.folder);
+    }
     ReferenceManifest manifest = read_manifest(options.folder);
+    // What would fail at the end fails now.
+    for (const std::string& output : {options.html, options.junit}) {
+        if (!output.empty()) AtomicFile{output};
+    }
     const std::string why = options.update ? reason(options) : "";
     RegressOptions regress;
     regress.only = options.only;

@@ -1,5 +1,6 @@
 // drude render: a scene to an EXR.
 #include "render/render.h"
+#include "image/image.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -37,7 +38,7 @@ namespace {
 struct Options {
     std::string scene, output, transport = "auto", environment, resolution, isa, shard, analyser;
     std::string films = "auto";
-    int samples = 0, wavelengths = 0, max_depth = -1;
+    int samples = 0, wavelengths = 0, max_depth = 0;
     double time = 0, error = 0, checkpoint = 0, mirror_below = 0;
     uint64_t seed = 0;
     bool spectral = false, stokes = false, dry_run = false, resume = false, allow_mixed = false;
@@ -151,9 +152,9 @@ void write_and_report(const Options& options, const RenderOptions& render_option
     }
     if (!writes) return;
     fmt::print(
-        "{}: {} samples a pixel, {:.3g} million rays in {:.2f} s on {} threads{}\n", options.output,
-        summary.samples_per_pixel, static_cast<double>(summary.rays) / 1e6, summary.render_seconds,
-        threads,
+        "{}: {} samples a pixel, {:.3g} million rays in {:.2f} s on {} thread{}{}\n",
+        options.output, summary.samples_per_pixel, static_cast<double>(summary.rays) / 1e6,
+        summary.render_seconds, threads, threads == 1 ? "" : "s",
         render_options.ranks ? fmt::format(" of {} processes", render_options.ranks->size()) : "");
     if (summary.error) fmt::print("estimated relative error {:.3g}\n", *summary.error);
     if (is_shard) fmt::print("shard {}; drude merge joins all of them\n", options.shard);
@@ -204,6 +205,7 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
     if (options.output.empty() && !options.dry_run) {
         user_error("render: no output; name the picture with -o OUT.exr");
     }
+    expect_exr_name("render", options.output);
     const auto start = std::chrono::steady_clock::now();
     Scene scene = read_scene(options.scene);
     if (!options.environment.empty()) {
@@ -328,14 +330,15 @@ Command render_command() {
                  "also from another instruction set, whose bits differ");
         set.option("--seed", options->seed, "of the samples (default: the scene's)");
         set.choice("--transport", options->transport, {"auto", "scalar", "intensity", "stokes"},
-                   "what a path carries (default auto)");
+                   "what a path carries");
         set.flag("--stokes", options->stokes, "write S0 to S3");
         set.flag("--spectral", options->spectral, "write radiance in 10 nm layers");
         set.option("--wavelengths", options->wavelengths, "wavelengths a path: 4, 8, 16 or 40");
         set.option("--environment", options->environment,
                    "a picture in place of the scene's infinite lights, or 'courtyard'");
         set.option("--resolution", options->resolution, "WIDTHxHEIGHT in place of the scene's");
-        set.option("--max-depth", options->max_depth, "reflections of a path at most");
+        set.option("--max-depth", options->max_depth,
+                   "reflections of a path at most (default: the scene's)");
         set.choice("--isa", options->isa, {"sse2", "sse4.2", "avx", "avx2", "avx512"},
                    "Embree's instruction set (default: the best here)");
         set.option("--analyser", options->analyser,
@@ -346,7 +349,7 @@ Command render_command() {
                    "lobes of a smaller beta (or alpha) are mirrors; 0: never (default: 1e-5, 0 "
                    "under distant, point and spot lights)");
         set.choice("--films", options->films, {"auto", "keep", "leave-out"},
-                   "films on metals (default auto: where leaving them out would show)");
+                   "films on metals; auto: where leaving them out would show");
         set.flag("--sample-every-light", options->every_light,
                  "look for constant skies too, which lobes find by themselves");
         set.flag("--every-ray", options->every_ray,

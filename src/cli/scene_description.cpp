@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <variant>
@@ -74,9 +75,12 @@ std::string describe_scene(const Scene& scene) {
         "  materials: {}\n",
         counted(scene.materials, {"conductor", "diffuse", "diffusetransmission", "dielectric",
                                   "thindielectric", "coated", "mix", "optical element", "plugin"}));
-    text += fmt::format("  lights: {} infinite, {} distant, {} point, {} area\n",
+    const auto spots = std::count_if(scene.point_lights.begin(), scene.point_lights.end(),
+                                     [](const PointLight& light) { return light.cos_end > -1; });
+    text += fmt::format("  lights: {} infinite, {} distant, {} point, {} spot, {} area\n",
                         scene.infinite_lights.size(), scene.distant_lights.size(),
-                        scene.point_lights.size(), scene.area_lights.size());
+                        scene.point_lights.size() - static_cast<size_t>(spots), spots,
+                        scene.area_lights.size());
     if (!scene.number_textures.empty() || !scene.spectrum_textures.empty()) {
         text += fmt::format("  textures: {} of numbers, {} of spectra\n",
                             scene.number_textures.size(), scene.spectrum_textures.size());

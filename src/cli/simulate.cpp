@@ -56,7 +56,7 @@ int run_simulate(const SimulateOptions& options, const CommonOptions& common) {
     const std::vector<double> wavelengths = measurement.wavelengths();
     const std::vector<std::string> warnings =
         range_warnings(material, wavelengths.front(), wavelengths.back());
-    for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& warning : warnings) fmt::print(stderr, "drude: warning: {}\n", warning);
     if (options.output.empty()) {
         fmt::print("{}", format_measurement(measurement));
         return 0;

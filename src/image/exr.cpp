@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 
@@ -104,6 +105,13 @@ void write_exr(const std::string& path, const Image& image, Compression compress
             words += width;
         }
     });
+}
+
+void expect_exr_name(const std::string& command, const std::string& path) {
+    const std::string ending = std::filesystem::path(path).extension().string();
+    if (ending.empty() || ending == ".exr" || ending == ".EXR") return;
+    user_error("{}: found the output '{}', expected an .exr; drude tonemap makes a PNG of one",
+               command, path);
 }
 
 }  // namespace drude

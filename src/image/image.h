@@ -56,6 +56,9 @@ enum class Compression { none, piz, zip };
 // the wrong size, a name used twice, or an attribute named like one of OpenEXR's own.
 void write_exr(const std::string& path, const Image& image, Compression compression);
 
+// Refuses an output of `command` whose ending is another than .exr or none: Error (user).
+void expect_exr_name(const std::string& command, const std::string& path);
+
 // EXR directly, anything else that OpenImageIO reads (png, hdr, jpg, tiff, ...) through the module.
 // 8- and 16-bit formats are decoded from sRGB to linear (not A, which stays unassociated). Channels
 // are R, G, B(, A) or Y(, A). What the file is, is told by its content, not by its name.

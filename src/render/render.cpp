@@ -57,8 +57,9 @@ void check_options(const RenderOptions& options) {
     if (options.seconds && !(*options.seconds > 0 && std::isfinite(*options.seconds))) {
         user_error("a time of {} s; expected more than 0", *options.seconds);
     }
-    if (options.error && !(*options.error > 0 && std::isfinite(*options.error))) {
-        user_error("a relative error of {}; expected more than 0, e.g. 0.02", *options.error);
+    if (options.error && !(*options.error > 0 && *options.error < 1)) {
+        user_error("a relative error of {}; expected more than 0 and below 1, e.g. 0.02",
+                   *options.error);
     }
     if (options.checkpoint_seconds &&
         !(*options.checkpoint_seconds >= 0 && std::isfinite(*options.checkpoint_seconds))) {

@@ -291,6 +291,9 @@ StudyResult run_study(const StudyOptions& options) {
     if (options.resolution < 1 || options.resolution > 16384) {
         user_error("a resolution of {} pixels; expected 1 to 16384", options.resolution);
     }
+    if (options.samples_per_pixel < 1) {
+        user_error("{} samples per pixel; expected at least 1", options.samples_per_pixel);
+    }
     return StudyRun(options).run();
 }
 

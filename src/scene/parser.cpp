@@ -189,6 +189,10 @@ void Parser::check_name(const std::string& kind, const std::string& name, const 
                 "; or a plugin: there is neither {0}.so nor lib{0}.so in {1} "
                 "(DRUDE_PLUGIN_PATH)",
                 shown(name), fmt::join(folders, ", "));
+        } else {
+            searched = fmt::format(
+                "; or a plugin, {}.so in a folder of DRUDE_PLUGIN_PATH, which is not set",
+                shown(name));
         }
     }
     user_error_at(place, "{} \"{}\" is not known{}; expected one of: {}{}", kind, shown(name),
