@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "materials/dielectric.h"
 #include "materials/film_stack.h"
@@ -172,9 +174,11 @@ BounceChoice bounce_choice(const Scene& scene) {
 SceneAlbedo scene_albedo(const Scene& scene) {
     SceneAlbedo result;
     double area = 0;
+    std::vector<std::optional<double>> known(scene.materials.size());
     for (const Shape& shape : scene.shapes) {
         if (shape.material < 0 || is_optical_element(scene, shape)) continue;
-        const double albedo = albedo_of(scene, shape.material);
+        if (!known[shape.material]) known[shape.material] = albedo_of(scene, shape.material);
+        const double albedo = *known[shape.material];
         const double here = world_area(shape);
         result.largest = std::max(result.largest, albedo);
         result.mean += here * albedo;

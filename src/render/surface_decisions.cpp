@@ -141,9 +141,19 @@ ModelDecision lobe_decision(const Scene& scene, const RenderOptions& options) {
 
 ModelDecision film_decision(const Scene& scene, const RenderOptions& options) {
     const SurfaceModel model = surface_model(scene, options);
-    constexpr const char* of_reflectance = "of Rs, Rp, C or S, at most";
-    const auto computed = [&](double effect) -> DecisionFigure {
-        return {effect, of_reflectance, "computed: film_effect(), 380 to 780 nm, 0 to 88 degrees"};
+    const double gain = model.gain_of_films;
+    const char* of_what = gain > 1 ? "of the light, at most" : "of Rs, Rp, C or S, at most";
+    const auto changed = [&](double effect, std::string basis) -> DecisionFigure {
+        if (gain > 1) {
+            basis += fmt::format(
+                "; times {:.3g}, what reflections between surfaces of the scene's largest albedo "
+                "make of it",
+                gain);
+        }
+        return {std::min(1.0, gain * effect), of_what, basis};
+    };
+    const auto computed = [&](double effect) {
+        return changed(effect, "computed: film_effect(), 380 to 780 nm, 0 to 88 degrees");
     };
     const DecisionFigure table{film_table_ns, "ns a reflection at 8 wavelengths", measured_costs};
     const DecisionFigure bare{bare_ns, "ns a reflection at 8 wavelengths", measured_costs};
@@ -169,29 +179,29 @@ ModelDecision film_decision(const Scene& scene, const RenderOptions& options) {
         decision.choice = "bare metal";
         decision.reason = "no metal of the scene has a film";
         decision.cost = bare;
-        decision.error = {0, of_reflectance, "proved: there is nothing to leave out"};
+        decision.error = {0, of_what, "proved: there is nothing to leave out"};
         return decision;
     }
     decision.choice = left_out == 0 ? "film"
                       : kept == 0   ? "bare metal"
                                     : fmt::format("{} with films, {} bare", kept, left_out);
-    decision.reason = decision.asked
-                          ? "asked for"
-                          : fmt::format(
-                                "films that change less than {:g} are left out: as much as a "
-                                "film's table may be wrong by",
-                                negligible_film_effect);
+    decision.reason =
+        decision.asked
+            ? "asked for"
+            : fmt::format(
+                  "films that change less than {:g} {}are left out: as much as a "
+                  "film's table may be wrong by",
+                  negligible_film_effect, gain > 1 ? "of the light, after all reflections, " : "");
     decision.cost = kept > 0 ? table : bare;
     if (kept > 0) {
-        decision.error = {std::max(lost, film_table_tolerance), of_reflectance,
-                          "computed: what is left out, or the tolerance of the film's table"};
+        decision.error = changed(std::max(lost, film_table_tolerance),
+                                 "computed: what is left out, or the tolerance of the film's "
+                                 "table");
         decision.alternatives.push_back({"bare metal", bare, computed(weakest)});
     }
     if (left_out > 0) {
         decision.alternatives.push_back(
-            {"film",
-             table,
-             {film_table_tolerance, of_reflectance, "the tolerance of the film's table"}});
+            {"film", table, changed(film_table_tolerance, "the tolerance of the film's table")});
     }
     return decision;
 }

@@ -3,14 +3,40 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/bounce_choice.h"
+
 namespace drude {
+
+namespace {
+
+bool has_film(const ConductorMaterial* metal) {
+    return metal != nullptr && !metal->reflectance && !metal->surface.layers.empty();
+}
+
+bool has_films(const Scene& scene) {
+    return std::any_of(
+        scene.materials.begin(), scene.materials.end(), [](const SurfaceMaterial& material) {
+            const auto* coated = std::get_if<CoatedMaterial>(&material);
+            return has_film(coated != nullptr ? std::get_if<ConductorMaterial>(&coated->base)
+                                              : std::get_if<ConductorMaterial>(&material));
+        });
+}
+
+}  // namespace
 
 SurfaceModel surface_model(const Scene& scene, const RenderOptions& options) {
     SurfaceModel model;
     model.films = options.films;
+    if (has_films(scene)) model.gain_of_films = film_gain(scene);
     model.mirror_below =
         options.mirror_below.value_or(has_small_lights(scene) ? 0 : mirror_below_beta);
     return model;
+}
+
+double film_gain(const Scene& scene) {
+    const double most = std::max(1, bounce_choice(scene).reflections);
+    const double albedo = scene_albedo(scene).largest;
+    return albedo < 1 ? std::min(most, (1 - std::pow(albedo, most)) / (1 - albedo)) : most;
 }
 
 bool has_small_lights(const Scene& scene) {

@@ -16,6 +16,8 @@ struct SurfaceModel {
     // none is drawn narrower than mirror_below_beta, below which a float direction has no facets.
     double mirror_below = mirror_below_beta;
     FilmUse films = FilmUse::automatic;
+    // By so much a change of a film's reflectance grows until it is seen: see film_gain().
+    double gain_of_films = 1;
 
     // The beta or alpha to draw a lobe with; 0 for a mirror.
     double lobe_width(double width) const {
@@ -24,13 +26,20 @@ struct SurfaceModel {
     // Whether the films on a metal are worth their table.
     bool keeps_films(const Material& material) const {
         if (material.layers.empty() || films == FilmUse::leave_out) return false;
-        return films == FilmUse::keep || film_effect(material) > negligible_film_effect;
+        return films == FilmUse::keep ||
+               gain_of_films * film_effect(material) > negligible_film_effect;
     }
 };
 
 // What the options ask for. Otherwise lobes below mirror_below_beta are mirrors, but not under
 // lights that have no extent (distant, point, spot): those are seen in lobes only, however narrow.
 SurfaceModel surface_model(const Scene& scene, const RenderOptions& options);
+
+// The relative change of the light, over the change of the reflectance R that makes it, at most: in
+// closed surroundings that glow and reflect alike light is the sum of R^k over k = 0 ... m
+// reflections, and the derivative of its logarithm at most 1 + R + ... + R^(m - 1). That with the
+// scene's largest albedo for R and bounce_choice() for m: 1 where light is reflected once.
+double film_gain(const Scene& scene);
 
 // Whether lights of the scene have no extent.
 bool has_small_lights(const Scene& scene);

@@ -434,6 +434,70 @@ TEST(Decisions, AFilmThatShowsIsKept) {
     EXPECT_LT(without.all.max_error, decision.alternatives[0].error.value.value() + 0.05);
 }
 
+// Inside a sphere of metal that glows, under a picometre of another.
+Scene glowing_sphere(const std::string& metal, const std::string& film, int max_depth) {
+    Scene scene = parse_scene(
+        fmt::format("LookAt 0 0 0  0.1 1 0  0 0 1\nCamera \"perspective\" \"float fov\" 120\n"
+                    "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n"
+                    "PixelFilter \"box\"\nIntegrator \"path\" \"integer maxdepth\" {}\n"
+                    "WorldBegin\nAreaLightSource \"diffuse\" \"bool twosided\" true \"rgb L\" "
+                    "[1 1 1]\nMaterial \"conductor\" \"string material\" \"{}\"\n"
+                    "Translate 0.3 0 0\nShape \"sphere\"\n",
+                    max_depth, metal),
+        "glow.pbrt");
+    std::get<ConductorMaterial>(scene.materials[scene.shapes[0].material]).surface.layers = {
+        {published_set(film), 0.001, 0}};
+    return scene;
+}
+
+double relative_change(const Scene& scene, FilmUse films) {
+    RenderOptions with, without;
+    with.films = FilmUse::keep;
+    without.films = films;
+    // The same samples: what differs is the reflectance.
+    const double kept = mean(picture(scene, with, 64), "G");
+    return std::abs(mean(picture(scene, without, 64), "G") - kept) / kept;
+}
+
+TEST(Decisions, AFilmThatManyReflectionsShowIsKept) {
+    const Scene scene = glowing_sphere("Ag", "Fe-Johnson", 300);
+    const double effect =
+        film_effect(std::get<ConductorMaterial>(scene.materials[scene.shapes[0].material]).surface);
+    EXPECT_LT(effect, negligible_film_effect);
+    const ModelDecision decision = decision_on(decisions(scene, {}), "film or bare metal");
+    EXPECT_EQ(decision.choice, "film");
+    ASSERT_EQ(decision.alternatives[0].choice, "bare metal");
+    const double stated = decision.alternatives[0].error.value.value();
+    // 300 reflections are almost as many as there can be.
+    EXPECT_NEAR(stated, effect / (1 - scene_albedo(scene).largest), 0.03 * stated);
+    const double without = relative_change(scene, FilmUse::leave_out);
+    EXPECT_GT(without, 5 * effect);
+    EXPECT_LT(without, stated);
+    EXPECT_EQ(relative_change(scene, FilmUse::automatic), 0);
+    RenderOptions leave_out;
+    leave_out.films = FilmUse::leave_out;
+    EXPECT_EQ(decision_on(decisions(scene, leave_out), "film or bare metal").error.value, stated);
+}
+
+TEST(Decisions, AFilmThatFewReflectionsHideIsLeftOut) {
+    // Light that is reflected once is changed by the film's effect itself.
+    EXPECT_EQ(
+        decision_on(decisions(glowing_sphere("Ag", "Fe-Johnson", 1), {}), "film or bare metal")
+            .choice,
+        "bare metal");
+    EXPECT_EQ(film_gain(glowing_sphere("Ag", "Fe-Johnson", 1)), 1);
+    const double albedo = scene_albedo(glowing_sphere("Ag", "Fe-Johnson", 3)).largest;
+    EXPECT_NEAR(film_gain(glowing_sphere("Ag", "Fe-Johnson", 3)), 1 + albedo + albedo * albedo,
+                1e-12);
+    // A dark metal forgets it however long the paths are.
+    const Scene dark = glowing_sphere("Fe", "Ag-McPeak", 300);
+    const ModelDecision decision = decision_on(decisions(dark, {}), "film or bare metal");
+    EXPECT_EQ(decision.choice, "bare metal");
+    EXPECT_GT(decision.error.value.value(), 1e-5);
+    EXPECT_LE(decision.error.value.value(), negligible_film_effect);
+    EXPECT_LE(relative_change(dark, FilmUse::automatic), decision.error.value.value());
+}
+
 // ---- table or formula --------------------------------------------------------------------------
 
 double table_against_formula(double thickness_nm) {

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "materials/embedded_tables.h"
+#include "render/batch_tracer.h"
 #include "render/test_scenes.h"
 
 namespace drude {
@@ -122,6 +124,151 @@ TEST(WavelengthChoice, IsRicherWhereALightIsNarrow) {
     // One narrow lamp among broad light is enough.
     const std::string sky = "LightSource \"infinite\" \"rgb L\" [1 1 1]\n";
     EXPECT_EQ(automatic(gold_in_light(589, 2, sky)), 40);
+}
+
+// ---- surfaces ----------------------------------------------------------------------------------
+
+const std::string broad_sky = "LightSource \"infinite\" \"rgb L\" [1 1 1]\n";
+const std::string line_541_to_549 = "[380 0 540 0 541 1 549 1 550 0 780 0]";
+const std::string edge_at_620 = "[380 0 605 0 635 1 780 1]";
+
+// A sphere; the material is the scene's ninth line, the shape its tenth.
+Scene sphere_of(const std::string& material, const std::string& light = broad_sky) {
+    return parse_scene(
+        "LookAt 0 -5 1  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 10\n"
+        "Film \"rgb\" \"integer xresolution\" 12 \"integer yresolution\" 12\n"
+        "PixelFilter \"box\"\nIntegrator \"path\"\n\nWorldBegin\n" +
+            light + material + "\nShape \"sphere\"\n",
+        "matter.pbrt");
+}
+
+std::string diffuse(const std::string& spectrum) {
+    return "Material \"diffuse\" \"spectrum reflectance\" " + spectrum;
+}
+
+Scene filmed(const std::string& substrate, double thickness_nm) {
+    Scene scene = sphere_of(R"(Material "conductor" "string material" "Cu")");
+    Material& metal =
+        std::get<ConductorMaterial>(scene.materials[scene.shapes[0].material]).surface;
+    metal.substrate = published_set(substrate);
+    metal.layers = {{published_set("Al2O3-Malitson-o"), thickness_nm, 0}};
+    return scene;
+}
+
+// Root of the mean over pixels and colours of the squared error of 64 samples a pixel, over the
+// mean of the picture; that of all wavelengths, with many samples, counts as right.
+double error_of(const Scene& scene, int wavelengths) {
+    RenderOptions options;
+    options.quiet = true;
+    options.wavelengths = spectral_bins;
+    options.samples_per_pixel = 2048;
+    options.seed = 99;
+    const std::vector<float> reference = rgb_values(render(scene, options).image, "test");
+    options.wavelengths = wavelengths;
+    options.samples_per_pixel = 64;
+    double sum = 0;
+    for (uint64_t seed = 1; seed <= seeds; ++seed) {
+        options.seed = seed;
+        const std::vector<float> rgb = rgb_values(render(scene, options).image, "test");
+        for (size_t i = 0; i < rgb.size(); ++i) {
+            const double d = static_cast<double>(rgb[i]) - static_cast<double>(reference[i]);
+            sum += d * d / (seeds * static_cast<double>(rgb.size()));
+        }
+    }
+    const double mean = std::accumulate(reference.begin(), reference.end(), 0.0) /
+                        static_cast<double>(reference.size());
+    return std::sqrt(sum) / mean;
+}
+
+TEST(WavelengthChoice, IsEightWhereMatterIsBroad) {
+    for (const std::string light : {"LightSource \"infinite\" \"rgb L\" [1 1 1]\n",
+                                    "LightSource \"infinite\" \"blackbody L\" [2856]\n"}) {
+        for (const std::string metal : {"Cu", "Au", "Ag", "Al", "Fe"}) {
+            const Scene scene =
+                sphere_of("Material \"conductor\" \"string material\" \"" + metal + "\"", light);
+            EXPECT_EQ(automatic(scene), 8) << metal << " " << light;
+        }
+        EXPECT_EQ(automatic(sphere_of(diffuse("[380 0.2 780 0.8]"), light)), 8);
+    }
+    EXPECT_EQ(automatic(filmed("Cu-McPeak", 100)), 8);
+    EXPECT_EQ(automatic(sphere_of("Material \"diffuse\" \"rgb reflectance\" [0 0 0]")), 8);
+    // Nothing shows in the dark.
+    EXPECT_EQ(automatic(sphere_of(diffuse(line_541_to_549), "")), 8);
+}
+
+TEST(WavelengthChoice, IsRicherWhereMatterIsNarrow) {
+    const Scene edge = sphere_of(diffuse(edge_at_620)), line = sphere_of(diffuse(line_541_to_549)),
+                fringes = filmed("Si-Green-2008", 1000);
+    EXPECT_EQ(automatic(edge), 16);
+    EXPECT_EQ(automatic(line), 40);
+    EXPECT_EQ(automatic(fringes), 16);
+    // What the times are apart by is below 1.3: see decision_costs.cpp.
+    EXPECT_GT(error_of(edge, 8), 2 * error_of(edge, 16));
+    EXPECT_GT(error_of(line, 8), 4 * error_of(line, 40));
+    EXPECT_GT(error_of(fringes, 8), 1.5 * error_of(fringes, 16));
+}
+
+// Each way that a constant spectrum gets into a picture.
+TEST(WavelengthChoice, LooksAtEveryKindOfMatter) {
+    const std::string line = line_541_to_549;
+    const std::string texture = "Texture \"line\" \"spectrum\" \"constant\" \"spectrum value\" " +
+                                line +
+                                "\nTexture \"half\" \"spectrum\" \"checkerboard\" "
+                                "\"texture tex1\" \"line\" \"rgb tex2\" [1 1 1]\n";
+    const std::string named =
+        "MakeNamedMaterial \"line\" \"string type\" \"diffuse\" "
+        "\"spectrum reflectance\" " +
+        line + "\nMakeNamedMaterial \"white\" \"string type\" \"diffuse\"\n";
+    for (const std::string& material :
+         {diffuse(line), "Material \"conductor\" \"spectrum reflectance\" " + line,
+          "Material \"diffusetransmission\" \"rgb reflectance\" [0 0 0] "
+          "\"spectrum transmittance\" " +
+              line,
+          "Material \"diffusetransmission\" \"rgb transmittance\" [0 0 0] "
+          "\"spectrum reflectance\" " +
+              line,
+          "Material \"coateddiffuse\" \"spectrum reflectance\" " + line,
+          "Material \"coatedconductor\" \"spectrum reflectance\" " + line,
+          texture + "Material \"diffuse\" \"texture reflectance\" \"half\"",
+          named + "Material \"mix\" \"string materials\" [\"white\" \"line\"]"}) {
+        EXPECT_EQ(automatic(sphere_of(material)), 40) << material;
+    }
+    // What no shape is made of is no part of the picture.
+    EXPECT_EQ(automatic(sphere_of(named + "NamedMaterial \"white\"")), 8);
+    // Films that are left out have no fringes.
+    RenderOptions bare;
+    bare.films = FilmUse::leave_out;
+    EXPECT_EQ(cheapest_exact_wavelengths(filmed("Si-Green-2008", 1000), bare).wavelengths, 8);
+}
+
+TEST(WavelengthChoice, NamesWhatDecided) {
+    const auto reason = [](const Scene& scene) {
+        return cheapest_exact_wavelengths(scene, RenderOptions()).reason;
+    };
+    const auto names = [](const std::string& text, const std::string& part) {
+        return text.find(part) != std::string::npos;
+    };
+    const std::string light =
+        reason(sphere_of("Material \"diffuse\" \"rgb reflectance\" [0 0 0]",
+                         "LightSource \"infinite\" \"spectrum L\" " + line_541_to_549 + "\n"));
+    EXPECT_TRUE(names(light, "the colour of a light would")) << light;
+    const std::string edge = reason(sphere_of(diffuse(edge_at_620)));
+    EXPECT_TRUE(names(edge, "the surface at matter.pbrt:10:1 in the scene's light")) << edge;
+    EXPECT_TRUE(names(edge, "paths of 8 wavelengths")) << edge;
+    const std::string line = reason(sphere_of(diffuse(line_541_to_549)));
+    EXPECT_TRUE(names(line, "paths of 16 wavelengths")) << line;
+    const std::string film = reason(filmed("Si-Green-2008", 1000));
+    EXPECT_TRUE(names(film, "Cu")) << film;
+}
+
+// 6 micrometres of alumina have a fringe about every 10 nm of blue light: all of 40 wavelengths sit
+// on the same place of it.
+TEST(WavelengthChoice, IsTheBestWhereNoneIsEnough) {
+    const Scene scene = filmed("Si-Green-2008", 6000);
+    const int chosen = automatic(scene);
+    EXPECT_GT(chosen, 8);
+    const double few = error_of(scene, 8);
+    EXPECT_GT(few, 1.3 * error_of(scene, chosen));
 }
 
 TEST(WavelengthChoice, FillsEverySpectralLayer) {
