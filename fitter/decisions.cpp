@@ -22,23 +22,27 @@ DecisionFigure parameters_of(int parameters, int data) {
             fmt::format("computed: fitted to {} data", data)};
 }
 
-DecisionFigure misfit_of(double chi2_reduced, double bic, int data) {
+DecisionFigure misfit_of(double chi2_reduced, double bic, int data, bool unweighted) {
     if (data == 0) return {std::nullopt, "", "could not be fitted"};
-    return {chi2_reduced, "reduced chi-square",
-            fmt::format("computed from this measurement; BIC {:.6g}", bic)};
+    const std::string criterion = std::isnan(bic) ? "" : fmt::format("; BIC {:.6g}", bic);
+    if (!std::isfinite(chi2_reduced)) {
+        return {std::nullopt, "", "as many parameters as data" + criterion};
+    }
+    return {chi2_reduced, unweighted ? "square degrees a degree of freedom" : "reduced chi-square",
+            "computed from this measurement" + criterion};
 }
 
-DecisionAlternative alternative_of(const LadderRung& rung) {
+DecisionAlternative alternative_of(const LadderRung& rung, bool unweighted) {
     const std::string name =
         rung.objection.empty() ? rung.model : fmt::format("{} ({})", rung.model, rung.objection);
     return {name, parameters_of(rung.parameters, rung.data),
-            misfit_of(rung.chi2_reduced, rung.bic, rung.data)};
+            misfit_of(rung.chi2_reduced, rung.bic, rung.data, unweighted)};
 }
 
 void set_figures(const FitResult& fit, const FitOptions& options, ModelDecision* decision) {
     decision->cost = parameters_of(fit.parameters, fit.data);
-    decision->error =
-        misfit_of(fit.chi2_reduced(), bayesian_criterion(fit, options.unweighted), fit.data);
+    decision->error = misfit_of(fit.chi2_reduced(), bayesian_criterion(fit, options.unweighted),
+                                fit.data, options.unweighted);
 }
 
 // A fit that may be refused; `why` is then the reason.
@@ -69,11 +73,11 @@ ModelDecision model_decision(const Measurement& measurement, const FitOptions& o
     if (options.model == "auto") {
         decision.reason = fmt::format(
             "the smallest model of the ladder: a larger one is taken where BIC falls by more than "
-            "{:g} and chi-square moves towards 1",
-            ladder_bic_gain);
+            "{:g}{}",
+            ladder_bic_gain, options.unweighted ? "" : " and chi-square falls, or is not above 1");
         for (const LadderRung& rung : fit.ladder) {
             if (!belongs_to_formula(rung) && rung.model != decision.choice) {
-                decision.alternatives.push_back(alternative_of(rung));
+                decision.alternatives.push_back(alternative_of(rung, options.unweighted));
             }
         }
         return decision;
@@ -94,7 +98,7 @@ ModelDecision model_decision(const Measurement& measurement, const FitOptions& o
         }
         for (const LadderRung& rung : ladder->ladder) {
             if (!belongs_to_formula(rung) && rung.model != fit.model) {
-                decision.alternatives.push_back(alternative_of(rung));
+                decision.alternatives.push_back(alternative_of(rung, options.unweighted));
             }
         }
     }
@@ -115,8 +119,8 @@ ModelDecision dispersion_decision(const Measurement& measurement, const FitOptio
     decision.choice = fit.dispersion.empty() ? "point by point" : fit.dispersion;
     decision.asked = !options.dispersion.empty() && options.dispersion != "auto";
     const std::string rule =
-        fmt::format("a formula is taken where BIC falls by more than {:g} and its chi-square is 1",
-                    ladder_bic_gain);
+        fmt::format("a formula is taken where BIC falls by more than {:g}{}", ladder_bic_gain,
+                    options.unweighted ? "" : " and its chi-square is not above 1");
     decision.reason = decision.asked                 ? "asked for"
                       : options.dispersion == "auto" ? rule
                                                      : "without a formula every wavelength stands "
@@ -136,7 +140,7 @@ ModelDecision dispersion_decision(const Measurement& measurement, const FitOptio
         }
         for (const LadderRung& rung : compared->ladder) {
             if (rung.model != decision.choice) {
-                decision.alternatives.push_back(alternative_of(rung));
+                decision.alternatives.push_back(alternative_of(rung, options.unweighted));
             }
         }
     }

@@ -150,6 +150,71 @@ TEST(FitDecisions, CopperStaysPointByPoint) {
     EXPECT_EQ(by_default.reason.find("would take"), std::string::npos);
 }
 
+Measurement with_sigmas_times(Measurement data, double factor) {
+    for (MeasurementRow& row : data.rows) {
+        row.sigma_psi_deg *= factor;
+        row.sigma_delta_deg *= factor;
+    }
+    return data;
+}
+
+TEST(FitDecisions, SigmasStatedTooLargeSayNothingAgainstAFormula) {
+    FitOptions options;
+    options.dispersion = "auto";
+    for (const double factor : {1.3, 2.0, 4.0}) {
+        const FitResult fit =
+            fit_measurement(with_sigmas_times(simulated(drude_metal(), 1), factor), options);
+        EXPECT_EQ(fit.dispersion, "drude") << fit.ladder.at(1).objection;
+        EXPECT_NEAR(fit.chi2_reduced() * factor * factor, 1, 0.25);
+    }
+}
+
+TEST(FitDecisions, SigmasStatedTooSmallSpeakAgainstAFormula) {
+    FitOptions options;
+    options.dispersion = "auto";
+    const FitResult fit =
+        fit_measurement(with_sigmas_times(simulated(drude_metal(), 1), 0.5), options);
+    EXPECT_EQ(fit.dispersion, "");
+    EXPECT_NE(fit.ladder.at(1).objection.find("above 1 +"), std::string::npos)
+        << fit.ladder.at(1).objection;
+}
+
+TEST(FitDecisions, WithoutSigmasTheCriterionAloneDecides) {
+    FitOptions options;
+    options.dispersion = "auto";
+    options.unweighted = true;
+    const Measurement data = simulated(drude_metal(), 1, {60, 70});
+    EXPECT_EQ(fit_measurement(data, options).dispersion, "drude");
+    const ModelDecision decision = decision_on(data, options, "point by point or formula");
+    EXPECT_EQ(decision.reason.find("chi-square"), std::string::npos) << decision.reason;
+    EXPECT_EQ(decision.error.unit.find("chi-square"), std::string::npos) << decision.error.unit;
+    options.unweighted = false;
+    EXPECT_NE(decision_on(data, options, "point by point or formula").reason.find("chi-square"),
+              std::string::npos);
+}
+
+// Psi and Delta of one angle are n and k: there is no residual to take the logarithm of.
+TEST(FitDecisions, OneAngleWithoutSigmasIsComparedWithNothing) {
+    FitOptions options;
+    options.dispersion = "auto";
+    options.unweighted = true;
+    const Measurement data = simulated(drude_metal(), 1, {70});
+    const FitResult fit = fit_measurement(data, options);
+    EXPECT_EQ(fit.dispersion, "");
+    ASSERT_EQ(fit.ladder.size(), 2u);
+    EXPECT_TRUE(std::isnan(fit.ladder[0].bic));
+    EXPECT_TRUE(std::isfinite(fit.ladder[1].bic));
+    EXPECT_EQ(fit.ladder[1].objection.find("BIC"), std::string::npos) << fit.ladder[1].objection;
+    EXPECT_NE(fit.ladder[1].objection.find("no residuals"), std::string::npos)
+        << fit.ladder[1].objection;
+    const ModelDecision decision = decision_on(data, options, "point by point or formula");
+    EXPECT_FALSE(decision.error.value.has_value());
+    EXPECT_EQ(decision.error.basis.find("BIC"), std::string::npos) << decision.error.basis;
+    // With standard deviations the criterion is there, and the formula is worth it.
+    options.unweighted = false;
+    EXPECT_EQ(fit_measurement(data, options).dispersion, "drude");
+}
+
 TEST(FitDecisions, TheDefaultSaysWhatAutoWouldTake) {
     const ModelDecision decision =
         decision_on(simulated(drude_metal(), 1), {}, "point by point or formula");
