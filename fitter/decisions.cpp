@@ -148,8 +148,11 @@ ModelDecision dispersion_decision(const Measurement& measurement, const FitOptio
 }
 
 std::string starts_that_meet(const StartCount& starts) {
-    return fmt::format("{} of {} starts end within 1e-6 of the lowest chi-square", starts.in_best,
-                       starts.refined);
+    return fmt::format("{} of {} starts end within 1e-6 of the lowest chi-square{}", starts.in_best,
+                       starts.refined,
+                       starts.next_chi2_excess > 0
+                           ? fmt::format(", the next {:.3g} above it", starts.next_chi2_excess)
+                           : "");
 }
 
 std::string why_these_starts(const FitOptions& options, const FitResult& fit) {
@@ -157,8 +160,8 @@ std::string why_these_starts(const FitOptions& options, const FitResult& fit) {
         return fit.starts.refined > 1
                    ? "a formula starts from n and k point by point, several starts are refined"
                    : "this formula has one start: where an earlier fit of it ended, or the only "
-                     "one "
-                     "that converged";
+                     "one that "
+                     "the search found";
     }
     if (fit.estimator == "inversion") return "n and k of every angle are a closed form";
     if (!options.overlayers.empty() || fit.estimator == "rho2") {

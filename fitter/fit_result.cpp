@@ -16,7 +16,11 @@ StartCount count_starts(const std::vector<double>& chi2) {
         if (!std::isfinite(value)) continue;
         ++count.refined;
         // Without noise the lowest is rounding, and so are the others.
-        if (value - lowest <= 1e-6 * lowest + 1e-12) ++count.in_best;
+        if (value - lowest <= 1e-6 * lowest + 1e-12) {
+            ++count.in_best;
+        } else if (count.next_chi2_excess == 0 || value - lowest < count.next_chi2_excess) {
+            count.next_chi2_excess = value - lowest;
+        }
     }
     return count;
 }

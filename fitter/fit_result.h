@@ -11,9 +11,11 @@
 namespace drude {
 
 // Where least squares started: how many starts converged, and how many of these ended within 1e-6
-// of the lowest chi-square, relatively. 0 and 0 where nothing is searched for.
+// of the lowest chi-square, relatively. 0 and 0 where nothing is searched for. The lowest of
+// the others is so much above; 0 where there is none, and in sums over wavelengths.
 struct StartCount {
     int refined = 0, in_best = 0;
+    double next_chi2_excess = 0;
 };
 
 // Of the chi-squares that starts ended with; one that is not finite did not converge.

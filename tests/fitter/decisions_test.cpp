@@ -421,10 +421,12 @@ TEST(FitDecisions, StartsAreCountedByWhereTheyEnd) {
     const StartCount count = count_starts({100.00005, 100, lost, 100.001, 250});
     EXPECT_EQ(count.refined, 4);
     EXPECT_EQ(count.in_best, 2);
+    EXPECT_DOUBLE_EQ(count.next_chi2_excess, 100.001 - 100);
     EXPECT_EQ(count_starts({lost, std::nan("")}).refined, 0);
     EXPECT_EQ(count_starts({}).in_best, 0);
     // Rounding is all that data without noise leave.
     EXPECT_EQ(count_starts({1e-22, 3e-20}).in_best, 2);
+    EXPECT_EQ(count_starts({1e-22, 3e-20}).next_chi2_excess, 0);
 }
 
 TEST(FitDecisions, TheSearchOfAFormulaSaysWhereItsStartsEnd) {
