@@ -169,7 +169,8 @@ Chart chart_of(const std::vector<NamedRecipe>& named, const Outcomes& outcomes,
     chart.error = fmt::format("rms error of {} (degrees)", psi ? "Psi" : "Delta");
     chart.caption = fmt::format(
         "{}. The virtual bench at 70 degrees of incidence, 2048 pixels in bins of 5 nm from 380 to "
-        "780 nm, automatic exposure, 16 dark frames; its time counts moves, frames, discarded "
+        "780 nm, automatic exposure, 16 dark frames but where a curve says another number; its "
+        "time counts moves, frames, discarded "
         "frames and darks. Root mean square over the rows and {} metals, mean over {} seeds. The "
         "notes compare the errors with the sigmas that the reduction states, what all wavelengths "
         "share included.",

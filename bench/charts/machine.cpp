@@ -29,8 +29,7 @@ std::string processor_name() {
 
 std::string system_name() {
     utsname name{};
-    return uname(&name) == 0 ? fmt::format("{} {} {}", name.sysname, name.release, name.machine)
-                             : "unknown";
+    return uname(&name) == 0 ? fmt::format("{} {}", name.sysname, name.machine) : "unknown";
 }
 
 }  // namespace

@@ -106,8 +106,7 @@ struct Experiment {
 // Runs are made once: `seconds` keeps what they cost in time where the chart is over samples.
 Experiment experiment(const Subject& subject, int seeds, Progress* progress) {
     const TracedScene exact(subject.scene);
-    const Transport transport =
-        cheapest_exact_transport(subject.scene, subject.scene.max_depth).transport;
+    const Transport transport = automatic_transport(subject.scene).transport;
     const ReferencePicture reference =
         trace_reference(*make_batch_tracer(transport, wavelengths, exact.setup(reference_seed)),
                         subject.scene.film, 1, subject.reference_samples);

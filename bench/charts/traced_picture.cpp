@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "base/executor.h"
@@ -124,7 +125,12 @@ double relative_product(const TracedPicture& a, const TracedPicture& b,
 }
 
 double relative_rmse(const TracedPicture& picture, const ReferencePicture& reference, int row) {
-    return std::sqrt(std::max(0.0, relative_product(picture, picture, reference, row)));
+    const double square = relative_product(picture, picture, reference, row);
+    return square >= 0 ? std::sqrt(square) : std::numeric_limits<double>::quiet_NaN();
+}
+
+TransportChoice automatic_transport(const Scene& scene) {
+    return transport_choice(scene, RenderOptions());
 }
 
 double mean_value(const TracedPicture& picture) {

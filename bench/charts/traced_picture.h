@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/batch_tracer.h"
+#include "render/transport_choice.h"
 
 namespace drude {
 
@@ -69,9 +70,12 @@ ReferencePicture trace_reference(const BatchTracer& tracer, const Film& film, in
 double relative_product(const TracedPicture& a, const TracedPicture& b,
                         const ReferencePicture& reference, int row = 0);
 
-// Its root, at least 0: the relative error (of film_schedule.h's relative_error()) that the picture
-// really has.
+// Its root: the relative error (of film_schedule.h's relative_error()) that the picture really has.
+// NaN where the product is negative: the error is lost in the reference's noise.
 double relative_rmse(const TracedPicture& picture, const ReferencePicture& reference, int row = 0);
+
+// What `drude render` takes for a picture of S0, and why.
+TransportChoice automatic_transport(const Scene& scene);
 
 // The mean over pixels and R, G, B of S0.
 double mean_value(const TracedPicture& picture);

@@ -10,6 +10,7 @@
 #include "bench/charts/bench_items.h"
 #include "bench/charts/chart_scenes.h"
 #include "bench/charts/experiment.h"
+#include "image/student.h"
 #include "render/transport_choice.h"
 
 namespace drude {
@@ -129,7 +130,7 @@ void add_findings(const Figures& f, Chart* chart) {
     }
     chart->findings.push_back(fmt::format(
         "scalar leaves the picture's mean off by {}{}.", signed_percent(bias.mean, bias.sigma),
-        std::abs(bias.mean) < 3 * bias.sigma ? ", which may be chance" : ""));
+        std::abs(bias.mean) < bias.chance * bias.sigma ? ", which may be chance" : ""));
     if (!(bias.rms > 0)) {
         chart->findings.push_back("What scalar does to single pixels is lost in their noise.");
         return;
@@ -149,7 +150,7 @@ Figures figures_of(const Subject& subject, int seeds, Progress* progress) {
         trace_reference(*exact, scene.scene().film, 4, subject.reference_samples);
     progress->step();
     Figures f;
-    const TransportChoice choice = cheapest_exact_transport(scene.scene(), scene.scene().max_depth);
+    const TransportChoice choice = automatic_transport(scene.scene());
     f.automatic = choice.transport;
     f.reason = choice.reason;
     f.most = subject.samples.back();
@@ -252,6 +253,7 @@ TransportBias transport_bias(const TracedScene& scene, Transport transport, int 
         }
     }
     for (const double s : shift) bias.mean += s / seeds;
+    bias.chance = student_quantile(0.0027, seeds - 1);
     double squares = 0;
     for (const double s : shift) squares += (s - bias.mean) * (s - bias.mean);
     bias.sigma = std::sqrt(squares / (static_cast<double>(seeds) * (seeds - 1)));

@@ -11,6 +11,7 @@ namespace drude {
 // `stokes`: noise that both share does not count.
 struct TransportBias {
     double mean = 0, sigma = 0;  // of the picture's mean, relative; its standard error over seeds
+    double chance = 3;           // sigmas that chance alone reaches in 0.27 % of cases (Student)
     double rms = 0;              // over the pixels, relative as in relative_product()
     double largest = 0;  // difference of any pixel and colour in a pair, over the picture's mean
     // Nothing but rounding.

@@ -34,8 +34,7 @@ struct Subject {
     std::optional<RGB> light = std::nullopt;
     bool always_scalar = true;
     Transport transport() const {
-        return always_scalar ? Transport::scalar
-                             : cheapest_exact_transport(scene, scene.max_depth).transport;
+        return always_scalar ? Transport::scalar : automatic_transport(scene).transport;
     }
 };
 
@@ -235,7 +234,9 @@ Experiment experiment(const Subject& subject, int seeds, Progress* progress) {
         "{} x {} pixels, transport {}, {} seeds; the reference has {} wavelengths a path, {} "
         "samples a pixel and another seed. Error: CIEDE2000 of each pixel against the reference, "
         "averaged; white is that of sRGB (D65) at the luminance that 99 % of the reference's "
-        "pixels stay below. 1 wavelength is a tracer of its own on plain floats.",
+        "pixels stay below; the reference's own noise is not taken off. 1 wavelength is a tracer "
+        "of "
+        "its own on plain floats.",
         subject.scene.film.width, subject.scene.film.height, transport_name(transport), seeds,
         spectral_bins, halves.samples);
     if (subject.light) {

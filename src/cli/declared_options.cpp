@@ -89,7 +89,7 @@ void DeclaredOptions::option(const std::string& spec, int& target, const std::st
         const std::optional<long long> value = parse_integer(values.back());
         if (!value) user_error("{}: found '{}', expected a whole number", name, values.back());
         if (*value < std::numeric_limits<int>::min() || *value > std::numeric_limits<int>::max()) {
-            user_error("{}: found {}, expected a whole number from {} to {}", name, *value,
+            user_error("{}: found '{}', expected a whole number from {} to {}", name, values.back(),
                        std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
         }
         target = static_cast<int>(*value);

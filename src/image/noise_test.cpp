@@ -24,6 +24,8 @@ struct Sums {
     double degrees_a = 0.0, degrees_b = 0.0;
     // Sum of the larger |mean| of each pixel: what is rounded, whatever cancels in a and b.
     double magnitude = 0.0;
+    // Of the variances, what no sum of squares shows.
+    double unseen_variance = 0.0;
     double pixels = 0.0;
     // Batches of a over those of b where both are of one size, otherwise 0.
     double batch_ratio = 0.0;
@@ -49,6 +51,7 @@ struct Sums {
         degrees_a = other.degrees_a;
         degrees_b = other.degrees_b;
         magnitude += other.magnitude;
+        unseen_variance += other.unseen_variance;
         pixels += other.pixels;
         batch_ratio = other.batch_ratio;
         finite = finite && other.finite;
@@ -62,7 +65,8 @@ double rounding(const Sums& sums) {
 }
 
 double standard_error(const Sums& sums) {
-    return std::sqrt(sums.total_variance() + rounding(sums) * rounding(sums));
+    return std::sqrt(sums.total_variance() + sums.unseen_variance +
+                     rounding(sums) * rounding(sums));
 }
 
 double degrees_of_freedom(const Sums& sums) {
@@ -145,6 +149,13 @@ struct RowResult {
     size_t outliers = 0;
 };
 
+// A sum of the squares of n batches is known to 2^-31 of the largest (render/exact_sum.h), and a
+// variance below the smallest normal float32 is stored as 0: batches that scatter by less than that
+// look alike. Squared, and of the mean of the batches.
+double unseen_variance(double mean, double degrees) {
+    return 0x1p-31 * mean * mean / degrees + static_cast<double>(std::numeric_limits<float>::min());
+}
+
 struct ChannelPair {
     const float *a, *b, *variance_a, *variance_b;
     double degrees_a, degrees_b, batch_ratio;
@@ -160,7 +171,11 @@ struct ChannelPair {
         sums.spread_b = sums.variance_b * sums.variance_b / degrees_b;
         sums.degrees_a = degrees_a;
         sums.degrees_b = degrees_b;
-        if (sums.finite) sums.magnitude = std::max(std::abs(sums.a), std::abs(sums.b));
+        if (sums.finite) {
+            sums.magnitude = std::max(std::abs(sums.a), std::abs(sums.b));
+            sums.unseen_variance =
+                unseen_variance(sums.a, degrees_a) + unseen_variance(sums.b, degrees_b);
+        }
         sums.pixels = 1.0;
         sums.batch_ratio = batch_ratio;
         return sums;
@@ -213,8 +228,12 @@ ChannelPair channel_pair(const Side& a, const Side& b, const std::string& channe
 std::vector<double> standardised_difference(const Image& a, const Image& b,
                                             const std::string& channel, const std::string& name_a,
                                             const std::string& name_b) {
-    // Degrees of freedom do not enter a difference in standard errors.
-    const ChannelPair pair = channel_pair({a, name_a, 1.0}, {b, name_b, 1.0}, channel);
+    // Degrees of freedom enter a difference in standard errors through what batches do not show.
+    const auto degrees = [](const Image& image) {
+        return std::max(1.0, image.number("batches", 2.0) - 1.0);
+    };
+    const ChannelPair pair =
+        channel_pair({a, name_a, degrees(a)}, {b, name_b, degrees(b)}, channel);
     std::vector<double> z(a.pixels());
     for (size_t i = 0; i < z.size(); ++i) {
         const Sums sums = pair.pixel(i);

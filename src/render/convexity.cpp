@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <map>
 
 namespace drude {
@@ -38,14 +40,20 @@ bool only_outside_is_seen(const Sphere& sphere, const glm::dvec3& eye) {
 
 // Flat, or closed and convex with the eye outside. Sides count by the geometry alone: vertex
 // normals bend reflections, but never below a surface.
+//
+// A vertex counts as within a face's plane where coordinates in single precision may have taken it
+// out: by a millionth of the mesh at most, and at so small an angle that the face hardly sees it.
+// Relief of any depth has steep sides, which fail by their angle.
 bool never_sees_itself(const TriangleMesh& mesh, const glm::dvec3& eye) {
     constexpr size_t most_checks = 20'000'000;
     if (mesh.triangles.size() * mesh.positions.size() > most_checks) return false;
-    double size = 0;
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const glm::vec3& p : mesh.positions) {
-        for (int c = 0; c < 3; ++c) size = std::max(size, std::abs(static_cast<double>(p[c])));
+        low = glm::min(low, glm::dvec3(p));
+        high = glm::max(high, glm::dvec3(p));
     }
-    const double slack = 1e-6 * size;
+    const double slack = 1e-6 * glm::length(high - low);
+    constexpr double least_angle = 1e-3;
     bool is_flat = true, is_convex = true, is_outside = false;
     using Corner = std::array<float, 3>;
     const auto corner = [&](uint32_t i) {
@@ -56,17 +64,20 @@ bool never_sees_itself(const TriangleMesh& mesh, const glm::dvec3& eye) {
     for (const glm::uvec3& t : mesh.triangles) {
         const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
         const glm::dvec3 n = glm::normalize(glm::cross(b - a, c - a));
-        double above = 0, below = 0;
-        for (const glm::vec3& p : mesh.positions) {
-            const double height = glm::dot(glm::dvec3(p) - a, n);
-            above = std::max(above, height);
-            below = std::min(below, height);
+        bool is_below_some = false, is_above_some = false;
+        for (const glm::vec3& position : mesh.positions) {
+            const glm::dvec3 p(position);
+            const double height = glm::dot(p - a, n);
+            const double distance =
+                std::min({glm::length(p - a), glm::length(p - b), glm::length(p - c)});
+            if (std::abs(height) <= std::min(slack, least_angle * distance)) continue;
+            if (distance > 0) (height > 0 ? is_below_some : is_above_some) = true;
         }
-        is_flat = is_flat && above <= slack && below >= -slack;
-        is_convex = is_convex && (above <= slack || below >= -slack);
+        is_flat = is_flat && !is_below_some && !is_above_some;
+        is_convex = is_convex && !(is_below_some && is_above_some);
         const double of_eye = glm::dot(eye - a, n);
         // The body is on one side of each of its faces.
-        is_outside = is_outside || (above <= slack ? of_eye > slack : of_eye < -slack);
+        is_outside = is_outside || (is_below_some ? of_eye < -slack : of_eye > slack);
         for (int side = 0; side < 3; ++side) {
             Corner from = corner(t[side]), to = corner(t[(side + 1) % 3]);
             if (to < from) std::swap(from, to);

@@ -66,6 +66,7 @@ class Path {
         beam_.x = camera.horizontal;
         from_ = o_;
         const float start = max_lane(beam_.throughput.corner());
+        cancelled_ = 0.1f * start;
         while (step()) {
             // Roulette on S0 alone: it bounds every other element of the product. What refraction
             // does to radiance is taken back, since it comes back when the path leaves again.
@@ -269,8 +270,7 @@ class Path {
 
     // `light` is the radiance that it came from.
     void add(Contribution<transport, N> c, const Packet<N>& light, float weight) {
-        const float least = cancelled_ > 0 ? cancelled_ * max_lane(light) : 0;
-        const float excess = project_on_cone(&c, least);
+        const float excess = project_on_cone(&c, cancelled_ * max_lane(light));
         statistics_.projections += excess > 1e-5f * static_cast<float>(depth_ + 1);
         const float check = sum(c.s[0]) * weight;
         if (!(check < std::numeric_limits<float>::infinity())) {
@@ -443,8 +443,8 @@ class Path {
     float radiance_scale_ = 1;  // index squared where the path is, over that at the camera
     int hero_ = -1;             // the lane that decides directions, once there was dispersion
     bool parted_ = false;       // only the hero is left
-    // Crossed elements leave of the product what rounding leaves: a contribution is judged against
-    // at least this.
+    // An analyser, crossed elements and reflections of polarised light at Brewster's angle leave of
+    // the product what rounding leaves: a contribution is judged against at least this.
     float cancelled_ = 0;
     int depth_ = 0, passed_ = 0;
 };

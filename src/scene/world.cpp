@@ -207,8 +207,14 @@ void SceneReader::resolve_materials() {
 void SceneReader::resolve_materials(std::vector<Shape>& shapes) {
     for (Shape& shape : shapes) {
         shape.material = resolved(shape.material);
-        if (shape.material < 0 && shape.area_light >= 0) {
+        if (shape.area_light < 0) continue;
+        if (shape.material < 0) {
             note_dark_interface(shape.place);
+            shape.area_light = -1;
+        } else if (std::holds_alternative<OpticalElementMaterial>(
+                       scene_.materials[static_cast<size_t>(shape.material)])) {
+            messages_.note(shape.place,
+                           "a polariser or retarder emits no light: the shape is dark");
             shape.area_light = -1;
         }
     }

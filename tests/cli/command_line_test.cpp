@@ -186,7 +186,7 @@ TEST(CommandLine, RefusesWrongWords) {
     refuses({"photograph"}, {"'photograph'", "drude help"});
     refuses({""}, {"''"});
     refuses({"--quiet", "measure"}, {"'--quiet'", "COMMAND --quiet"});
-    refuses({"measure"}, {"nothing", "IN", "drude help measure"});
+    refuses({"measure"}, {"found no IN", "drude help measure"});
     refuses({"measure", "a", "--angel", "5"}, {"'--angel'", "did you mean '--angle'?"});
     refuses({"measure", "a", "--angel=5"}, {"'--angel'", "did you mean '--angle'?"});
     refuses({"measure", "a", "-z"}, {"'-z'", "no option of 'drude measure'"});

@@ -261,6 +261,27 @@ TEST(NoiseTest, ResultDoesNotDependOnThreads) {
               compare(a, b, three).noise->smallest_detectable_bias);
 }
 
+// Batches that scatter by less than 2^-15.5 of their value, or by less than any float32 variance
+// tells, have the variance 0: that says nothing of differences as small.
+TEST(NoiseTest, GrantsTheScatterThatNoSumOfSquaresShows) {
+    const auto flat = [](float value) {
+        Image image = picture(16, 16, {"Y", "variance.Y"}, 0.0F);
+        image.attributes["batches"] = 4;
+        for (float& y : image.channels[0].data) y = value;
+        return image;
+    };
+    Image a = flat(1.0F), b = flat(1.0F);
+    b.channels[0].data[37] = 1.00002F;
+    EXPECT_TRUE(compare(a, b).same) << compare(a, b).noise->p_min;
+    b.channels[0].data[37] = 1.001F;
+    EXPECT_FALSE(compare(a, b).same);
+    a = flat(1e-25F);
+    b = flat(1e-25F);
+    b.channels[0].data[37] = 3e-25F;
+    EXPECT_TRUE(compare(a, b).same) << compare(a, b).noise->p_min;
+    EXPECT_FALSE(compare(flat(1e-15F), flat(3e-15F)).same);
+}
+
 TEST(NoiseTest, BadVariancesAreUserErrors) {
     const Image good = noisy(1, 8, 8, 16, 0);
     Image negative = good, no_batches = good;

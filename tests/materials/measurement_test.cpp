@@ -72,7 +72,7 @@ TEST(Measurement, WritingAndReadingKeepsEveryBit) {
     Measurement m;
     m.header = {{"sample", "third of a\nlife"}};
     m.rows = {{1000.0 / 3, 100.0 / 3, 1e-17, -359.99999999999994, 0.05, 1.0 / 7, 1.0 / 9},
-              {0.1 + 0.2, 89.999999999, 90, 1e5, 0, 0, -1}};
+              {1000.1 + 0.2, 89.999999999, 90, 1e5, 0, 0, -1}};
     const Measurement back = parse_measurement(format_measurement(m), "m.csv");
     ASSERT_EQ(back.rows.size(), 2u);
     for (size_t i = 0; i < 2; ++i) {

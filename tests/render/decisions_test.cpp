@@ -204,6 +204,50 @@ TEST(Decisions, AConvexShapeReflectsOnce) {
     }
 }
 
+// Grooves of 45 degrees, 4 thousandths deep: far from the origin that is less than a millionth of
+// their coordinates, which are exact all the same.
+TEST(Decisions, ReliefIsNotFlatHoweverLargeItsCoordinates) {
+    const auto grooves = [](double x, double depth) {
+        std::string points, indices;
+        for (const double y : {-0.015625, 0.015625}) {
+            for (int i = 0; i < 5; ++i) {
+                points += fmt::format("{} {} {} ", x + (i - 2) * 0.00390625, y, i % 2 * -depth);
+            }
+        }
+        for (int i = 0; i < 4; ++i) {
+            indices += fmt::format("{0} {1} {2} {0} {2} {3} ", i, i + 1, i + 6, i + 5);
+        }
+        return scene_of(sky + rough_copper + fmt::format("Translate {} 0 0\n", -x) +
+                        "Shape \"trianglemesh\" \"point3 P\" [" + points +
+                        "] \"integer indices\" [" + indices + "]\n");
+    };
+    for (const double x : {0.0, 1024.0, 16384.0}) {
+        EXPECT_GT(bounce_choice(grooves(x, 0.00390625)).reflections, 1) << x;
+        EXPECT_EQ(bounce_choice(grooves(x, 0)).reflections, 1) << x;
+    }
+}
+
+// A plane whose corners single precision moved off it by their last digits is flat all the same.
+TEST(Decisions, ATurnedPlaneIsFlat) {
+    std::string points, indices;
+    constexpr int n = 8;
+    for (int i = 0; i <= n; ++i) {
+        for (int j = 0; j <= n; ++j) {
+            const double u = 1.0 * i / n - 0.5, v = 1.0 * j / n - 0.5;
+            points += fmt::format("{} {} {} ", 0.36 * u - 0.8 * v, 0.48 * u + 0.6 * v, 0.8 * u);
+        }
+    }
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            const int at = i * (n + 1) + j;
+            indices += fmt::format("{0} {1} {2} {1} {3} {2} ", at, at + 1, at + n + 1, at + n + 2);
+        }
+    }
+    const Scene scene = scene_of(sky + rough_copper + "Shape \"trianglemesh\" \"point3 P\" [" +
+                                 points + "] \"integer indices\" [" + indices + "]\n");
+    EXPECT_EQ(bounce_choice(scene).reflections, 1);
+}
+
 TEST(Decisions, BlackScenesReflectNothing) {
     EXPECT_EQ(bounce_choice(scene_of(lamp)).reflections, 0);
     // A lamp beside a convex metal is met by what the metal reflects, so that rays are traced.

@@ -167,6 +167,25 @@ TEST(RobustnessDeathTest, AnInterruptLeavesAWholePicture) {
     EXPECT_EXIT(interrupted_in_the_middle(), testing::ExitedWithCode(0), "");
 }
 
+// What an analyser crosses is lost in rounding: that is no light outside the cone of physical
+// Stokes vectors.
+TEST(Robustness, WhatAnAnalyserTakesAwayIsNoMistake) {
+    const Scene scene = parse_scene(
+        "LookAt -0.3 0 -1.855 0.25 -0.157 -0.445 0 0 1\n"
+        "Camera \"perspective\" \"float fov\" 50 \"float analyser\" 90\n"
+        "Film \"rgb\" \"integer xresolution\" 24 \"integer yresolution\" 24\n"
+        "PixelFilter \"box\"\nIntegrator \"path\" \"integer maxdepth\" 2\nWorldBegin\n"
+        "LightSource \"infinite\" \"rgb L\" [0.9 0.5 1]\n"
+        "Material \"coatedconductor\" \"float interface.roughness\" 0 "
+        "\"float conductor.roughness\" 0.5\nShape \"disk\"\n",
+        "crossed.pbrt");
+    RenderOptions options;
+    options.samples_per_pixel = 256;
+    options.stokes = true;
+    options.quiet = true;
+    EXPECT_EQ(render(scene, options).projections, 0u);
+}
+
 TEST(Robustness, ShapesWithoutMaterialAreNotThere) {
     Scene scene = sphere_under_sky("Material \"diffuse\"", 4);
     scene.shapes[0].material = -1;

@@ -200,6 +200,20 @@ TEST(Lights, AreaLightsBelongToTheirShapes) {
     EXPECT_TRUE(warns(scene, "\"interface\" emits no light"));
 }
 
+TEST(Lights, APolariserEmitsNone) {
+    const Scene scene = parse_scene(
+        "WorldBegin\nMaterial \"diffuse\"\nShape \"sphere\"\n"
+        "MakeNamedMaterial \"p\" \"string type\" \"linearpolariser\"\nNamedMaterial \"p\"\n"
+        "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nShape \"disk\"\n"
+        "Material \"retarder\"\nShape \"disk\"\nMaterial \"diffuse\"\nShape \"disk\"\n",
+        "p.pbrt");
+    ASSERT_EQ(scene.shapes.size(), 4u);
+    EXPECT_EQ(scene.shapes[1].area_light, -1);
+    EXPECT_EQ(scene.shapes[2].area_light, -1);
+    EXPECT_EQ(scene.shapes[3].area_light, 0);
+    EXPECT_TRUE(warns(scene, "a polariser or retarder emits no light"));
+}
+
 TEST(Lights, AnEnvironmentIsResolvedAndCountedIntoTheHash) {
     TemporaryFolder folder;
     std::ofstream(folder.file("e.exr")) << "one";
