@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/error.h"
 #include "fitter/fit_data.h"
@@ -25,6 +26,9 @@ struct Information {
         nn += other.nn;
         nk += other.nk;
         kk += other.kk;
+    }
+    Information divided_by(double variance) const {
+        return {nn / variance, nk / variance, kk / variance};
     }
     // sqrt(sigma_n^2 + sigma_k^2): the root of the trace of the inverse.
     double sigma() const {
@@ -61,6 +65,8 @@ using Table = std::vector<std::vector<Information>>;
 Table information_table(const Measurement& measurement, const FitOptions& options,
                         const FitResult& fit, const std::vector<double>& angles) {
     const Estimator estimator = fit.estimator == "rho2" ? Estimator::rho2 : Estimator::psi_delta;
+    // Without stated standard deviations rows have one of a degree each, until the residuals tell.
+    const double noise = options.unweighted && fit.dof() > 0 ? fit.chi2_reduced() : 1;
     Table table;
     for (const WavelengthData& group : group_by_wavelength(measurement, options)) {
         const auto point = std::find_if(
@@ -77,7 +83,7 @@ Table information_table(const Measurement& measurement, const FitOptions& option
                            std::abs(std::cos(b * degree) - row.cos_theta);
                 });
             table.back()[static_cast<size_t>(nearest - angles.begin())] =
-                information_of(one, estimator, point->n, point->k);
+                information_of(one, estimator, point->n, point->k).divided_by(noise);
         }
     }
     return table;
@@ -153,33 +159,72 @@ AngleSet film_without(const Measurement& measurement, FitOptions options, const 
     return set;
 }
 
+// Which of `angles` are left out in turn: the one first without which the thickness is known best.
+std::vector<double> cheapest_first(const std::vector<double>& angles,
+                                   const std::vector<AngleSet>& without) {
+    std::vector<size_t> order(angles.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    const auto sigma = [&](size_t a) {
+        return std::isnan(without[a].sigma) ? infinite : without[a].sigma;
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return sigma(a) < sigma(b); });
+    std::vector<double> turn;
+    for (const size_t a : order) turn.push_back(angles[a]);
+    return turn;
+}
+
+AngleChoice film_angle_choice(const Measurement& measurement, const FitOptions& taken,
+                              const FitResult& fit) {
+    AngleChoice choice;
+    const std::vector<double> angles = measurement.angles();
+    choice.all = {angles, sigma_of_fit(fit)};
+    choice.needed = choice.all;
+    if (angles.size() < 2) return choice;
+    for (const double left_out : angles) {
+        std::vector<double> others = angles;
+        others.erase(std::find(others.begin(), others.end(), left_out));
+        choice.without.push_back(film_without(measurement, taken, fit, others));
+    }
+    std::vector<double> left = angles;
+    for (const double next : cheapest_first(angles, choice.without)) {
+        left.erase(std::find(left.begin(), left.end(), next));
+        if (left.empty()) break;
+        const auto known = std::find_if(choice.without.begin(), choice.without.end(),
+                                        [&](const AngleSet& s) { return s.angles_deg == left; });
+        AngleSet set =
+            known != choice.without.end() ? *known : film_without(measurement, taken, fit, left);
+        if (!(set.sigma <= enough_sigma * choice.all.sigma)) break;
+        choice.needed = std::move(set);
+    }
+    return choice;
+}
+
 }  // namespace
+
+double sigma_of_fit(const FitResult& fit) {
+    if (fit.model == "film") return fit.common.empty() ? std::nan("") : fit.common.front().sigma;
+    std::vector<double> sigmas;
+    for (const FittedPoint& point : fit.points) {
+        if (point.identifiable) sigmas.push_back(std::hypot(point.sigma_n, point.sigma_k));
+    }
+    return median_of(std::move(sigmas));
+}
+
+double sigma_of_all_angles(const Measurement& measurement, const FitOptions& options,
+                           const FitResult& fit) {
+    if (fit.model == "film") return sigma_of_fit(fit);
+    const std::vector<double> angles = measurement.angles();
+    const Table table = information_table(measurement, options_taken(options, fit), fit, angles);
+    return set_of(table, angles, std::vector<bool>(angles.size(), true)).sigma;
+}
 
 AngleChoice angle_choice(const Measurement& measurement, const FitOptions& options,
                          const FitResult& fit) {
+    const FitOptions taken = options_taken(options, fit);
+    if (fit.model == "film") return film_angle_choice(measurement, taken, fit);
     AngleChoice choice;
     const std::vector<double> angles = measurement.angles();
-    const FitOptions taken = options_taken(options, fit);
-    const bool film = fit.model == "film";
-    const auto without = [&](size_t left_out) {
-        std::vector<double> others = angles;
-        others.erase(others.begin() + static_cast<ptrdiff_t>(left_out));
-        return others;
-    };
-    if (film) {
-        choice.all = {angles, fit.common.empty() ? std::nan("") : fit.common.front().sigma};
-        choice.needed = choice.all;
-        for (size_t a = 0; a < angles.size() && angles.size() > 1; ++a) {
-            choice.without.push_back(film_without(measurement, taken, fit, without(a)));
-            const AngleSet& set = choice.without.back();
-            if (set.sigma <= enough_sigma * choice.all.sigma &&
-                (choice.needed.angles_deg.size() == angles.size() ||
-                 set.sigma < choice.needed.sigma)) {
-                choice.needed = set;
-            }
-        }
-        return choice;
-    }
     const Table table = information_table(measurement, taken, fit, angles);
     choice.all = set_of(table, angles, std::vector<bool>(angles.size(), true));
     for (size_t a = 0; a < angles.size() && angles.size() > 1; ++a) {

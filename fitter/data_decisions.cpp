@@ -21,14 +21,37 @@ DecisionFigure rows_of(size_t angles) {
     return {static_cast<double>(angles), "rows a wavelength", "computed"};
 }
 
-DecisionFigure sigma_figure(double sigma, bool film) {
+DecisionFigure sigma_figure(double sigma, bool film, const std::string& basis) {
     if (!std::isfinite(sigma)) {
         return {std::nullopt, "", film ? "no fit converges" : "n and k are not determined"};
     }
     return {sigma,
             film ? "nm, standard deviation of the thickness" : "standard deviation of n + ik",
-            film ? "computed: a fit without that angle"
-                 : "computed: information at the fitted n and k, median over the wavelengths"};
+            basis};
+}
+
+// What the fit that was made states of itself.
+DecisionFigure own_sigma(const FitResult& fit) {
+    const bool film = fit.model == "film";
+    return sigma_figure(
+        sigma_of_fit(fit), film,
+        film ? "computed: the fit's own" : "computed: the fit's own, median over the wavelengths");
+}
+
+// A formula, or an offset that all wavelengths share, has other standard deviations than what
+// follows from every wavelength by itself.
+bool shares_parameters(const FitResult& fit) {
+    return fit.model != "film" && !fit.common.empty();
+}
+
+// Of the information that angles hold, with what it is to be compared.
+DecisionFigure information_figure(double sigma, double sigma_of_all, const FitResult& fit) {
+    DecisionFigure figure = sigma_figure(
+        sigma, false, "computed: information at the fitted n and k, median over the wavelengths");
+    if (figure.value && shares_parameters(fit)) {
+        figure.unit += fmt::format(" point by point, where all have {:.3g}", sigma_of_all);
+    }
+    return figure;
 }
 
 }  // namespace
@@ -37,30 +60,42 @@ ModelDecision angle_decision(const Measurement& measurement, const FitOptions& o
                              const FitResult& fit) {
     const AngleChoice chosen = angle_choice(measurement, options, fit);
     const bool film = fit.model == "film";
-    const size_t count = chosen.all.angles_deg.size();
+    const size_t count = chosen.all.angles_deg.size(), needed = chosen.needed.angles_deg.size();
     ModelDecision decision;
     decision.name = "angles";
     decision.choice = fmt::format("all {}: {} degrees", count, list_of(chosen.all.angles_deg));
-    decision.reason =
-        chosen.needed.angles_deg.size() < count
-            ? fmt::format(
-                  "a measured angle costs nothing more; {} ({} degrees) would do with {:g} "
-                  "times the standard deviation at most",
-                  chosen.needed.angles_deg.size(), list_of(chosen.needed.angles_deg), enough_sigma)
-            : fmt::format("with fewer the standard deviation is more than {:g} times as large",
-                          enough_sigma);
+    const std::string what =
+        shares_parameters(fit) ? "standard deviation point by point" : "standard deviation";
+    if (needed < count) {
+        decision.reason = fmt::format(
+            "a measured angle costs nothing more; {} ({} degrees) would do with {:g} times the {} "
+            "at most",
+            needed, list_of(chosen.needed.angles_deg), enough_sigma, what);
+    } else if (count == 1) {
+        decision.reason = "there is no other";
+    } else {
+        decision.reason =
+            fmt::format("with fewer the {} is more than {:g} times as large", what, enough_sigma);
+    }
     decision.cost = rows_of(count);
-    decision.error = sigma_figure(chosen.all.sigma, film);
+    decision.error = own_sigma(fit);
+    const auto figure = [&](const AngleSet& set) {
+        return film ? sigma_figure(set.sigma, true, "computed: a fit of these angles alone")
+                    : information_figure(set.sigma, chosen.all.sigma, fit);
+    };
     for (const AngleSet& set : chosen.best) {
         if (set.angles_deg.size() == count) continue;
         decision.alternatives.push_back(
             {fmt::format("the best {}: {}", set.angles_deg.size(), list_of(set.angles_deg)),
-             rows_of(set.angles_deg.size()), sigma_figure(set.sigma, film)});
+             rows_of(set.angles_deg.size()), figure(set)});
+    }
+    if (film && needed + 1 < count) {
+        decision.alternatives.push_back({fmt::format("{} alone", list_of(chosen.needed.angles_deg)),
+                                         rows_of(needed), figure(chosen.needed)});
     }
     for (size_t a = 0; a < chosen.without.size(); ++a) {
         decision.alternatives.push_back({fmt::format("without {:g}", chosen.all.angles_deg[a]),
-                                         rows_of(count - 1),
-                                         sigma_figure(chosen.without[a].sigma, film)});
+                                         rows_of(count - 1), figure(chosen.without[a])});
     }
     decision.override_option = "--angles LIST";
     return decision;
@@ -76,13 +111,13 @@ ModelDecision estimator_decision(const Measurement& measurement, const FitOption
                                      : "Delta is measured with Psi, and with it every angle by "
                                        "itself determines n and k";
     decision.override_option = "--estimator psi-delta|rho2|inversion";
-    const bool film = fit.model == "film";
     const auto residuals = [](bool both) -> DecisionFigure {
         return {both ? 2.0 : 1.0, "data a row", "computed"};
     };
     decision.cost = residuals(fit.estimator != "rho2");
-    decision.error = sigma_figure(angle_choice(measurement, options, fit).all.sigma, film);
-    if (film) return decision;
+    decision.error = own_sigma(fit);
+    if (fit.model == "film") return decision;
+    const double sigma = sigma_of_all_angles(measurement, options, fit);
     for (const std::string other : {"psi-delta", "rho2"}) {
         if (other == fit.estimator) continue;
         // The information of the other estimator at the n and k of this one.
@@ -90,7 +125,7 @@ ModelDecision estimator_decision(const Measurement& measurement, const FitOption
         as_other.estimator = other;
         decision.alternatives.push_back(
             {other, residuals(other != "rho2"),
-             sigma_figure(angle_choice(measurement, options, as_other).all.sigma, film)});
+             information_figure(sigma_of_all_angles(measurement, options, as_other), sigma, fit)});
     }
     return decision;
 }

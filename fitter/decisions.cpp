@@ -22,23 +22,27 @@ DecisionFigure parameters_of(int parameters, int data) {
             fmt::format("computed: fitted to {} data", data)};
 }
 
-DecisionFigure misfit_of(double chi2_reduced, double bic, int data) {
+DecisionFigure misfit_of(double chi2_reduced, double bic, int data, bool unweighted) {
     if (data == 0) return {std::nullopt, "", "could not be fitted"};
-    return {chi2_reduced, "reduced chi-square",
-            fmt::format("computed from this measurement; BIC {:.6g}", bic)};
+    const std::string criterion = std::isnan(bic) ? "" : fmt::format("; BIC {:.6g}", bic);
+    if (!std::isfinite(chi2_reduced)) {
+        return {std::nullopt, "", "as many parameters as data" + criterion};
+    }
+    return {chi2_reduced, unweighted ? "square degrees a degree of freedom" : "reduced chi-square",
+            "computed from this measurement" + criterion};
 }
 
-DecisionAlternative alternative_of(const LadderRung& rung) {
+DecisionAlternative alternative_of(const LadderRung& rung, bool unweighted) {
     const std::string name =
         rung.objection.empty() ? rung.model : fmt::format("{} ({})", rung.model, rung.objection);
     return {name, parameters_of(rung.parameters, rung.data),
-            misfit_of(rung.chi2_reduced, rung.bic, rung.data)};
+            misfit_of(rung.chi2_reduced, rung.bic, rung.data, unweighted)};
 }
 
 void set_figures(const FitResult& fit, const FitOptions& options, ModelDecision* decision) {
     decision->cost = parameters_of(fit.parameters, fit.data);
-    decision->error =
-        misfit_of(fit.chi2_reduced(), bayesian_criterion(fit, options.unweighted), fit.data);
+    decision->error = misfit_of(fit.chi2_reduced(), bayesian_criterion(fit, options.unweighted),
+                                fit.data, options.unweighted);
 }
 
 // A fit that may be refused; `why` is then the reason.
@@ -69,11 +73,11 @@ ModelDecision model_decision(const Measurement& measurement, const FitOptions& o
     if (options.model == "auto") {
         decision.reason = fmt::format(
             "the smallest model of the ladder: a larger one is taken where BIC falls by more than "
-            "{:g} and chi-square moves towards 1",
-            ladder_bic_gain);
+            "{:g}{}",
+            ladder_bic_gain, options.unweighted ? "" : " and chi-square falls, or is not above 1");
         for (const LadderRung& rung : fit.ladder) {
             if (!belongs_to_formula(rung) && rung.model != decision.choice) {
-                decision.alternatives.push_back(alternative_of(rung));
+                decision.alternatives.push_back(alternative_of(rung, options.unweighted));
             }
         }
         return decision;
@@ -94,7 +98,7 @@ ModelDecision model_decision(const Measurement& measurement, const FitOptions& o
         }
         for (const LadderRung& rung : ladder->ladder) {
             if (!belongs_to_formula(rung) && rung.model != fit.model) {
-                decision.alternatives.push_back(alternative_of(rung));
+                decision.alternatives.push_back(alternative_of(rung, options.unweighted));
             }
         }
     }
@@ -115,8 +119,8 @@ ModelDecision dispersion_decision(const Measurement& measurement, const FitOptio
     decision.choice = fit.dispersion.empty() ? "point by point" : fit.dispersion;
     decision.asked = !options.dispersion.empty() && options.dispersion != "auto";
     const std::string rule =
-        fmt::format("a formula is taken where BIC falls by more than {:g} and its chi-square is 1",
-                    ladder_bic_gain);
+        fmt::format("a formula is taken where BIC falls by more than {:g}{}", ladder_bic_gain,
+                    options.unweighted ? "" : " and its chi-square is not above 1");
     decision.reason = decision.asked                 ? "asked for"
                       : options.dispersion == "auto" ? rule
                                                      : "without a formula every wavelength stands "
@@ -136,41 +140,82 @@ ModelDecision dispersion_decision(const Measurement& measurement, const FitOptio
         }
         for (const LadderRung& rung : compared->ladder) {
             if (rung.model != decision.choice) {
-                decision.alternatives.push_back(alternative_of(rung));
+                decision.alternatives.push_back(alternative_of(rung, options.unweighted));
             }
         }
     }
     return decision;
 }
 
+std::string starts_that_meet(const StartCount& starts) {
+    return fmt::format("{} of {} starts end within 1e-6 of the lowest chi-square{}", starts.in_best,
+                       starts.refined,
+                       starts.next_chi2_excess > 0
+                           ? fmt::format(", the next {:.3g} above it", starts.next_chi2_excess)
+                           : "");
+}
+
+std::string why_these_starts(const FitOptions& options, const FitResult& fit) {
+    if (!fit.dispersion.empty()) {
+        return fit.starts.refined > 1
+                   ? "a formula starts from n and k point by point, several starts are refined"
+                   : "this formula has one start: where an earlier fit of it ended, or the only "
+                     "one that "
+                     "the search found";
+    }
+    if (fit.estimator == "inversion") return "n and k of every angle are a closed form";
+    if (!options.overlayers.empty() || fit.estimator == "rho2") {
+        return "below layers, and where Psi alone fits poorly, n and k may have several minima: "
+               "metals and dielectrics of every sort are starts, too";
+    }
+    return "a closed form starts beside the minimum of every wavelength";
+}
+
+// What tells whether the search found the lowest: where the other starts end.
+DecisionFigure ends_of(const FitResult& fit) {
+    const auto searches =
+        fit.dispersion.empty()
+            ? std::count_if(fit.points.begin(), fit.points.end(),
+                            [](const FittedPoint& point) {
+                                return point.identifiable && point.starts.refined > 0;
+                            })
+            : 1;
+    if (fit.starts.refined == 0) return {std::nullopt, "", "there is nothing to search for"};
+    if (fit.starts.refined <= searches) {
+        return {std::nullopt, "", "one start each: there is no other to compare with"};
+    }
+    return {static_cast<double>(fit.starts.refined - fit.starts.in_best),
+            "starts that end above the lowest chi-square",
+            "computed: " + starts_that_meet(fit.starts)};
+}
+
 ModelDecision search_decision(const FitOptions& options, const FitResult& fit) {
     ModelDecision decision;
     decision.name = "global search";
     decision.override_option = "--max-thickness NM";
+    decision.cost = {static_cast<double>(fit.starts.refined), "starts refined",
+                     "computed: those that converged"};
     if (fit.model != "film") {
         decision.choice = "none";
-        decision.reason =
-            fit.dispersion.empty()
-                ? "n and k of one wavelength have one minimum, and a closed form starts beside it"
-                : "a formula starts from n and k point by point, several starts are refined";
-        decision.cost = {fit.dispersion.empty() ? 1.0 : 6.0, "starts refined",
-                         "computed: the fit's own number"};
-        decision.error = {0, "of chi-square", "see tests/fitter: every start ends in one minimum"};
+        decision.reason = why_these_starts(options, fit);
+        decision.error = ends_of(fit);
         decision.override_option = "none";
         return decision;
     }
     decision.choice = fmt::format("thickness up to {:g} nm", options.film.largest_thickness_nm);
     decision.reason = "chi-square has a minimum for every fringe; their spectrum gives the starts";
-    decision.cost = {options.film.largest_thickness_nm, "nm searched", "the option's own"};
+    const std::string unit = "likelihood of the next best thickness over that of the best";
     if (fit.rival_thickness_nm > 0) {
-        // Odds of the two minima for equal priors.
-        decision.error = {std::exp(-0.5 * std::min(1400.0, fit.rival_chi2_excess)),
-                          "likelihood of the next best thickness over that of the best",
-                          fmt::format("computed: {:.6g} nm, chi-square {:.3g} more",
-                                      fit.rival_thickness_nm, fit.rival_chi2_excess)};
+        // Odds of the two minima for equal priors, of the noise that the residuals show where no
+        // other is stated.
+        const double noise = options.unweighted && fit.dof() > 0 ? fit.chi2_reduced() : 1;
+        decision.error = {
+            std::exp(-0.5 * std::min(1400.0, fit.rival_chi2_excess / noise)), unit,
+            fmt::format("computed: {:.6g} nm, chi-square {:.3g} more; {}", fit.rival_thickness_nm,
+                        fit.rival_chi2_excess, starts_that_meet(fit.starts))};
     } else {
-        decision.error = {0, "likelihood of the next best thickness over that of the best",
-                          "computed: the search met no other minimum"};
+        decision.error = {
+            0, unit, "computed: the search met no other minimum; " + starts_that_meet(fit.starts)};
     }
     return decision;
 }

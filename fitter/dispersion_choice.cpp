@@ -27,12 +27,17 @@ std::string objection(const FitResult& points, const FitResult& formula,
     }
     if (!(formula.dof() > 0)) return "it has as many parameters as data";
     const double allowed = 3 * chi2_scatter(formula, options);
-    if (!options.unweighted && std::abs(formula.chi2_reduced() - 1) > allowed) {
-        return fmt::format("its reduced chi-square is {:.4g}, not 1 +- {:.2g}",
+    // Below 1 it says that standard deviations are stated too large, nothing against the formula.
+    if (!options.unweighted && formula.chi2_reduced() - 1 > allowed) {
+        return fmt::format("its reduced chi-square is {:.4g}, above 1 + {:.2g}",
                            formula.chi2_reduced(), allowed);
     }
     const double gain = bayesian_criterion(points, options.unweighted) -
                         bayesian_criterion(formula, options.unweighted);
+    if (std::isnan(gain)) {
+        return "n and k point by point leave no residuals, and without standard deviations nothing "
+               "else says how large those of the formula may be";
+    }
     return gain > ladder_bic_gain ? "" : small_gain(gain);
 }
 

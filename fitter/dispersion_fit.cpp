@@ -198,7 +198,11 @@ DispersionFit fit_one(const std::string& name, const Setup& setup) {
                                 "the surface reflects and im eps >= 0 at every wavelength",
                                 starts.size(), name));
     }
-    return make_fit(model, setup, *best);
+    std::vector<double> ends;
+    for (const Solution& solution : solutions) ends.push_back(solution.chi2);
+    DispersionFit fit = make_fit(model, setup, *best);
+    fit.starts = count_starts(ends);
+    return fit;
 }
 
 // The smallest formula that the data need.

@@ -18,7 +18,8 @@ struct DispersionFit {
     double condition = 0;
     double chi2 = 0;
     int data = 0;
-    std::vector<double> values;      // of all parameters of the formula, determined or not
+    std::vector<double> values;  // of all parameters of the formula, determined or not
+    StartCount starts;
     std::vector<LadderRung> ladder;  // of "compact" and "spline": the formulas that were tried
 };
 

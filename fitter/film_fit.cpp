@@ -268,6 +268,11 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
     result.thickness_spread_nm = best.values[3];
     result.bandwidth_nm = options.film.bandwidth_nm;
     set_rival(solutions, &result);
+    std::vector<double> ends;
+    for (const FilmSolution& solution : solutions) {
+        ends.push_back(solution.converged ? solution.chi2 : not_known);
+    }
+    result.starts = count_starts(ends);
     warn(&result, options);
     return result;
 }

@@ -309,6 +309,7 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
         result.common_correlation = std::move(fit.correlation);
         result.condition = fit.condition;
         result.ladder = std::move(fit.ladder);
+        result.starts = fit.starts;
         result.chi2 = fit.chi2;
         result.data = fit.data;
     } else if (options.fit_angle_offset) {
@@ -330,6 +331,8 @@ FitResult fit_measurement(const Measurement& measurement, const FitOptions& opti
         result.chi2 += point.chi2;
         result.data += point.data;
         result.parameters += 2;
+        result.starts.refined += point.starts.refined;
+        result.starts.in_best += point.starts.in_best;
     }
     if (!options.dispersion.empty() && !options.unweighted) {
         if (hold_nothing(groups, estimator)) {

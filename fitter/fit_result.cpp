@@ -1,8 +1,29 @@
 #include "fitter/fit_result.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace drude {
+
+StartCount count_starts(const std::vector<double>& chi2) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const double value : chi2) {
+        if (std::isfinite(value)) lowest = std::min(lowest, value);
+    }
+    StartCount count;
+    for (const double value : chi2) {
+        if (!std::isfinite(value)) continue;
+        ++count.refined;
+        // Without noise the lowest is rounding, and so are the others.
+        if (value - lowest <= 1e-6 * lowest + 1e-12) {
+            ++count.in_best;
+        } else if (count.next_chi2_excess == 0 || value - lowest < count.next_chi2_excess) {
+            count.next_chi2_excess = value - lowest;
+        }
+    }
+    return count;
+}
 
 const FittedParameter* FitResult::find(std::string_view name) const {
     for (const FittedParameter& parameter : common) {

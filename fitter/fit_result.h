@@ -10,6 +10,17 @@
 
 namespace drude {
 
+// Where least squares started: how many starts converged, and how many of these ended within 1e-6
+// of the lowest chi-square, relatively. 0 and 0 where nothing is searched for. The lowest of
+// the others is so much above; 0 where there is none, and in sums over wavelengths.
+struct StartCount {
+    int refined = 0, in_best = 0;
+    double next_chi2_excess = 0;
+};
+
+// Of the chi-squares that starts ended with; one that is not finite did not converge.
+StartCount count_starts(const std::vector<double>& chi2);
+
 // n and k at one wavelength. Where `identifiable` is false the data do not determine them: both
 // are NaN, so are the standard deviations, and `reason` says why.
 struct FittedPoint {
@@ -26,6 +37,7 @@ struct FittedPoint {
     bool at_bound = false;  // k = 0, or n at its lower bound
     bool identifiable = false;
     std::string reason;
+    StartCount starts;  // of this wavelength alone; none where a formula shares the parameters
 };
 
 // A parameter that all wavelengths share.
@@ -67,6 +79,9 @@ struct FitResult {
     // The next best thickness of a film that is a minimum by itself, and how much worse its
     // chi-square is; 0 and 0 where the search met none.
     double rival_thickness_nm = 0, rival_chi2_excess = 0;
+    // Of the search over all wavelengths: of a formula, or of a film; otherwise summed over the
+    // identifiable points, each with a search of its own.
+    StartCount starts;
     double chi2 = 0;     // summed over the identifiable points
     int data = 0;        // residuals in that sum
     int parameters = 0;  // fitted to them

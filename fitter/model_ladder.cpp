@@ -1,6 +1,7 @@
 #include "fitter/model_ladder.h"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/error.h"
@@ -8,10 +9,6 @@
 namespace drude {
 
 namespace {
-
-double distance_from_one(const FitResult& fit) {
-    return std::abs(fit.chi2_reduced() - 1);
-}
 
 // "" where `next` is the better model, otherwise what speaks against it.
 std::string objection(const FitResult& now, const FitResult& next, const FitOptions& options) {
@@ -30,8 +27,8 @@ std::string objection(const FitResult& now, const FitResult& next, const FitOpti
             return fmt::format("its {} ends at a bound, {:.4g}", parameter.name, parameter.value);
         }
     }
-    const double scatter = 3 * chi2_scatter(next, options);
-    const bool fits = !unweighted && distance_from_one(next) <= scatter;
+    // Below 1 it speaks against the standard deviations that were stated, not against a model.
+    const bool fits = !unweighted && next.chi2_reduced() - 1 <= 3 * chi2_scatter(next, options);
     // More data, or a criterion that cannot be had: the fit itself decides.
     if (next.data > now.data || !(now.dof() > 0)) {
         return unweighted || fits
@@ -40,8 +37,8 @@ std::string objection(const FitResult& now, const FitResult& next, const FitOpti
     }
     const double gain = bayesian_criterion(now, unweighted) - bayesian_criterion(next, unweighted);
     if (!(gain > ladder_bic_gain)) return small_gain(gain);
-    if (!unweighted && !fits && !(distance_from_one(next) < distance_from_one(now))) {
-        return fmt::format("its reduced chi-square {:.4g} is further from 1 than {:.4g}",
+    if (!unweighted && !fits && !(next.chi2_reduced() < now.chi2_reduced())) {
+        return fmt::format("its reduced chi-square {:.4g} is above 1 and not below {:.4g}",
                            next.chi2_reduced(), now.chi2_reduced());
     }
     return "";
@@ -108,6 +105,8 @@ std::string small_gain(double gain) {
 }
 
 double bayesian_criterion(double chi2, int data, int parameters, bool unweighted) {
+    // Of residuals that the parameters cancel only rounding is left to take a logarithm of.
+    if (unweighted && data <= parameters) return std::numeric_limits<double>::quiet_NaN();
     const double misfit = unweighted ? data * std::log(chi2 / data) : chi2;
     return misfit + parameters * std::log(static_cast<double>(data));
 }

@@ -99,10 +99,11 @@ bool is_poor(double chi2, int data) {
 
 // The best minimum reached. "" where one converged.
 std::string minimise_from(const AveragedIndex& start, OtherStarts others, PointCost* cost,
-                          double* index) {
+                          double* index, std::vector<double>* ends) {
     make_start(start, index);
     std::string failure = minimise(cost, index);
     double best = failure.empty() ? chi2_at(*cost, index) : std::numeric_limits<double>::infinity();
+    *ends = {best};
     if (others == OtherStarts::never) return failure;
     if (others == OtherStarts::if_poor && !is_poor(best, cost->num_residuals())) return failure;
     constexpr double starts[][2] = {{0.2, 3}, {1, 6},      {0.6, 1.5}, {2.5, 3.5},
@@ -111,6 +112,7 @@ std::string minimise_from(const AveragedIndex& start, OtherStarts others, PointC
         double trial[2] = {other[0], other[1]};
         if (!minimise(cost, trial).empty()) continue;
         const double chi2 = chi2_at(*cost, trial);
+        ends->push_back(chi2);
         if (!(chi2 < best)) continue;
         best = chi2;
         failure.clear();
@@ -123,7 +125,9 @@ void fit_least_squares(const WavelengthData& data, Estimator estimator, const Av
                        OtherStarts others, FittedPoint* point) {
     const auto cost = make_cost({&data, estimator});
     double index[2];
-    const std::string failure = minimise_from(start, others, cost.get(), index);
+    std::vector<double> ends;
+    const std::string failure = minimise_from(start, others, cost.get(), index, &ends);
+    point->starts = count_starts(ends);
     if (!failure.empty()) return refuse(point, failure);
     if (std::max(index[0], index[1]) > 0.999 * largest_index) {
         return refuse(point, "no surface explains the data: n and k run off to infinity");

@@ -119,13 +119,17 @@ ordered_json ladder(const FitResult& fit) {
     return list;
 }
 
+std::string number_or_dash(double value, int digits) {
+    return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "-";
+}
+
 void print_ladder(const FitResult& fit) {
     fmt::print("{:<26}{:>10}{:>12}{:>14}\n", "model", "parameters", "chi2/dof", "BIC");
     for (const LadderRung& rung : fit.ladder) {
         const std::string verdict = rung.taken ? "taken" : "not taken: " + rung.objection;
         if (rung.data > 0) {
-            fmt::print("{:<26}{:>10}{:>12.4g}{:>14.6g}  {}\n", rung.model, rung.parameters,
-                       rung.chi2_reduced, rung.bic, verdict);
+            fmt::print("{:<26}{:>10}{:>12}{:>14}  {}\n", rung.model, rung.parameters,
+                       number_or_dash(rung.chi2_reduced, 4), number_or_dash(rung.bic, 6), verdict);
         } else {
             fmt::print("{:<26}{:>36}  {}\n", rung.model, "", verdict);
         }

@@ -116,14 +116,16 @@ void show_constants(const FitReport& report, Page* page) {
     page->table(table);
 }
 
-void show_ladder(const FitResult& fit, Page* page) {
+void show_ladder(const FitReport& report, Page* page) {
+    const FitResult& fit = report.fit;
     if (fit.ladder.empty()) return;
     page->section("Models tried", "models");
     PageTable table;
     table.caption =
         "A model is taken where the Bayesian information criterion falls by more than 10";
     // A formula may be large enough without describing the data.
-    table.caption += fit.dispersion.empty() ? " and χ²/dof moves towards 1." : ".";
+    const bool judged = fit.dispersion.empty() && !report.options.unweighted;
+    table.caption += judged ? " and χ²/dof falls, or is not above 1." : ".";
     table.columns = {"Model", "Parameters", "χ²/dof", "BIC", "Verdict"};
     table.numeric = {false, true, true, true, false};
     for (const LadderRung& rung : fit.ladder) {
@@ -301,7 +303,7 @@ std::string fit_page(const FitReport& report) {
     show_constants(report, &page);
     show_literature(report, &page);
     show_substrates(report, &page);
-    show_ladder(report.fit, &page);
+    show_ladder(report, &page);
     show_profile(report, &page);
     show_bootstrap(report, &page);
     show_provenance(report, &page);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include "base/error.h"
 #include "base/numbers.h"
@@ -14,6 +15,7 @@
 #include "fit_cases.h"
 #include "fitter/angle_choice.h"
 #include "fitter/dispersion_choice.h"
+#include "fitter/named_constants.h"
 #include "fitter/robust_choice.h"
 #include "materials/dispersion.h"
 
@@ -150,6 +152,71 @@ TEST(FitDecisions, CopperStaysPointByPoint) {
     EXPECT_EQ(by_default.reason.find("would take"), std::string::npos);
 }
 
+Measurement with_sigmas_times(Measurement data, double factor) {
+    for (MeasurementRow& row : data.rows) {
+        row.sigma_psi_deg *= factor;
+        row.sigma_delta_deg *= factor;
+    }
+    return data;
+}
+
+TEST(FitDecisions, SigmasStatedTooLargeSayNothingAgainstAFormula) {
+    FitOptions options;
+    options.dispersion = "auto";
+    for (const double factor : {1.3, 2.0, 4.0}) {
+        const FitResult fit =
+            fit_measurement(with_sigmas_times(simulated(drude_metal(), 1), factor), options);
+        EXPECT_EQ(fit.dispersion, "drude") << fit.ladder.at(1).objection;
+        EXPECT_NEAR(fit.chi2_reduced() * factor * factor, 1, 0.25);
+    }
+}
+
+TEST(FitDecisions, SigmasStatedTooSmallSpeakAgainstAFormula) {
+    FitOptions options;
+    options.dispersion = "auto";
+    const FitResult fit =
+        fit_measurement(with_sigmas_times(simulated(drude_metal(), 1), 0.5), options);
+    EXPECT_EQ(fit.dispersion, "");
+    EXPECT_NE(fit.ladder.at(1).objection.find("above 1 +"), std::string::npos)
+        << fit.ladder.at(1).objection;
+}
+
+TEST(FitDecisions, WithoutSigmasTheCriterionAloneDecides) {
+    FitOptions options;
+    options.dispersion = "auto";
+    options.unweighted = true;
+    const Measurement data = simulated(drude_metal(), 1, {60, 70});
+    EXPECT_EQ(fit_measurement(data, options).dispersion, "drude");
+    const ModelDecision decision = decision_on(data, options, "point by point or formula");
+    EXPECT_EQ(decision.reason.find("chi-square"), std::string::npos) << decision.reason;
+    EXPECT_EQ(decision.error.unit.find("chi-square"), std::string::npos) << decision.error.unit;
+    options.unweighted = false;
+    EXPECT_NE(decision_on(data, options, "point by point or formula").reason.find("chi-square"),
+              std::string::npos);
+}
+
+// Psi and Delta of one angle are n and k: there is no residual to take the logarithm of.
+TEST(FitDecisions, OneAngleWithoutSigmasIsComparedWithNothing) {
+    FitOptions options;
+    options.dispersion = "auto";
+    options.unweighted = true;
+    const Measurement data = simulated(drude_metal(), 1, {70});
+    const FitResult fit = fit_measurement(data, options);
+    EXPECT_EQ(fit.dispersion, "");
+    ASSERT_EQ(fit.ladder.size(), 2u);
+    EXPECT_TRUE(std::isnan(fit.ladder[0].bic));
+    EXPECT_TRUE(std::isfinite(fit.ladder[1].bic));
+    EXPECT_EQ(fit.ladder[1].objection.find("BIC"), std::string::npos) << fit.ladder[1].objection;
+    EXPECT_NE(fit.ladder[1].objection.find("no residuals"), std::string::npos)
+        << fit.ladder[1].objection;
+    const ModelDecision decision = decision_on(data, options, "point by point or formula");
+    EXPECT_FALSE(decision.error.value.has_value());
+    EXPECT_EQ(decision.error.basis.find("BIC"), std::string::npos) << decision.error.basis;
+    // With standard deviations the criterion is there, and the formula is worth it.
+    options.unweighted = false;
+    EXPECT_EQ(fit_measurement(data, options).dispersion, "drude");
+}
+
 TEST(FitDecisions, TheDefaultSaysWhatAutoWouldTake) {
     const ModelDecision decision =
         decision_on(simulated(drude_metal(), 1), {}, "point by point or formula");
@@ -202,7 +269,75 @@ TEST(FitDecisions, FilmsTellWhatEachAngleIsWorth) {
         EXPECT_GT(set.sigma, choice.all.sigma);
         EXPECT_LT(set.sigma, 3 * choice.all.sigma);
     }
-    EXPECT_EQ(choice.needed.angles_deg.size(), 2u);
+}
+
+// What is left while one angle after another goes, not only what is left of all but one.
+TEST(FitDecisions, FilmsTellHowFewAnglesWouldDo) {
+    const Measurement data = measured_film(900, 0.2, 4, {50, 55, 60, 65, 70});
+    const FitOptions options = anodised_options();
+    const FitResult fit = fit_measurement(data, options);
+    const AngleChoice choice = angle_choice(data, options, fit);
+    EXPECT_EQ(choice.all.sigma, fit.common.front().sigma);
+    const std::vector<double> needed = choice.needed.angles_deg;
+    ASSERT_LT(needed.size(), 4u);
+    EXPECT_LE(choice.needed.sigma, enough_sigma * choice.all.sigma);
+    const FitResult alone = fit_measurement(at_angles(data, needed), options);
+    EXPECT_NEAR(alone.common.front().sigma / choice.needed.sigma, 1, 1e-3);
+    // The next to go would be one too many.
+    ASSERT_GT(needed.size(), 1u);
+    size_t too_many = 0;
+    for (const double next : needed) {
+        std::vector<double> fewer = needed;
+        fewer.erase(std::find(fewer.begin(), fewer.end(), next));
+        const double sigma = fit_measurement(at_angles(data, fewer), options).common.front().sigma;
+        if (sigma > enough_sigma * choice.all.sigma) ++too_many;
+    }
+    EXPECT_GE(too_many, 1u);
+
+    const ModelDecision decision = decision_on(data, options, "angles");
+    EXPECT_EQ(decision.error.basis, "computed: the fit's own");
+    ASSERT_FALSE(decision.alternatives.empty());
+    EXPECT_NE(decision.alternatives[0].choice.find("alone"), std::string::npos);
+    for (const DecisionAlternative& other : decision.alternatives) {
+        EXPECT_EQ(other.error.basis, "computed: a fit of these angles alone");
+    }
+}
+
+double median_sigma(const FitResult& fit) {
+    std::vector<double> sigmas;
+    for (const FittedPoint& point : fit.points) {
+        sigmas.push_back(std::hypot(point.sigma_n, point.sigma_k));
+    }
+    std::nth_element(sigmas.begin(), sigmas.begin() + 15, sigmas.end());
+    return sigmas.at(15);
+}
+
+// A formula knows n and k better than its wavelengths do by themselves.
+TEST(FitDecisions, AFormulaStatesItsOwnStandardDeviation) {
+    const Measurement data = simulated(drude_metal(), 1);
+    FitOptions formula;
+    formula.dispersion = "compact";
+    const double own = median_sigma(fit_measurement(data, formula));
+    const double by_points = median_sigma(fit_measurement(data, {}));
+    ASSERT_LT(own, by_points / 2);
+    for (const char* name : {"angles", "estimator"}) {
+        const ModelDecision decision = decision_on(data, formula, name);
+        EXPECT_DOUBLE_EQ(decision.error.value.value(), own) << name;
+        EXPECT_NE(decision.alternatives.at(0).error.unit.find("point by point"), std::string::npos)
+            << decision.alternatives.at(0).error.unit;
+        const ModelDecision without = decision_on(data, {}, name);
+        EXPECT_DOUBLE_EQ(without.error.value.value(), by_points) << name;
+        EXPECT_EQ(without.alternatives.at(0).error.unit, "standard deviation of n + ik");
+    }
+}
+
+// The information of rows without standard deviations is in units that the residuals tell.
+TEST(FitDecisions, AnglesWithoutSigmasAreJudgedByTheResiduals) {
+    const Measurement data = simulated(find_material("Cu-McPeak"), 1);
+    FitOptions options;
+    options.unweighted = true;
+    const FitResult fit = fit_measurement(data, options);
+    EXPECT_NEAR(angle_choice(data, options, fit).all.sigma / median_sigma(fit), 1, 1e-6);
 }
 
 TEST(FitDecisions, AnAngleThatIsNotThereIsRefused) {
@@ -281,11 +416,58 @@ TEST(FitDecisions, TheSubstrateCountsUnderAFilmAndNotWithoutOne) {
     EXPECT_EQ(bare.error.value.value(), 0);
 }
 
+TEST(FitDecisions, StartsAreCountedByWhereTheyEnd) {
+    const double lost = std::numeric_limits<double>::infinity();
+    const StartCount count = count_starts({100.00005, 100, lost, 100.001, 250});
+    EXPECT_EQ(count.refined, 4);
+    EXPECT_EQ(count.in_best, 2);
+    EXPECT_DOUBLE_EQ(count.next_chi2_excess, 100.001 - 100);
+    EXPECT_EQ(count_starts({lost, std::nan("")}).refined, 0);
+    EXPECT_EQ(count_starts({}).in_best, 0);
+    // Rounding is all that data without noise leave.
+    EXPECT_EQ(count_starts({1e-22, 3e-20}).in_best, 2);
+    EXPECT_EQ(count_starts({1e-22, 3e-20}).next_chi2_excess, 0);
+}
+
+TEST(FitDecisions, TheSearchOfAFormulaSaysWhereItsStartsEnd) {
+    const Measurement data = simulated(find_material("Cu-McPeak"), 2);
+    FitOptions options;
+    options.dispersion = "drude+2cp";
+    const FitResult fit = fit_measurement(data, options);
+    EXPECT_GT(fit.starts.refined, 1);
+    EXPECT_GE(fit.starts.in_best, 1);
+    // Copper has more than one minimum of this formula.
+    EXPECT_LT(fit.starts.in_best, fit.starts.refined);
+    const ModelDecision decision = decision_on(data, options, "global search");
+    EXPECT_EQ(decision.cost.value.value(), fit.starts.refined);
+    EXPECT_EQ(decision.error.value.value(), fit.starts.refined - fit.starts.in_best);
+    options.dispersion_start = fit.dispersion_parameters;
+    const FitResult again = fit_measurement(data, options);
+    EXPECT_EQ(again.starts.refined, 1);
+    EXPECT_FALSE(decision_on(data, options, "global search").error.value.has_value());
+}
+
+TEST(FitDecisions, OneStartIsComparedWithNone) {
+    const Measurement data = simulated(find_material("Cu-McPeak"), 1);
+    const ModelDecision decision = decision_on(data, {}, "global search");
+    EXPECT_EQ(decision.cost.value.value(), 31);  // wavelengths
+    EXPECT_FALSE(decision.error.value.has_value());
+    // Below a layer others are tried, and their ends are told.
+    FitOptions layered;
+    layered.model = "overlayer";
+    layered.overlayers = {find_layer("Al2O3-Malitson-o,30", "layer")};
+    const FitResult fit = fit_measurement(data, layered);
+    EXPECT_GT(fit.starts.refined, 31);
+    EXPECT_EQ(decision_on(data, layered, "global search").error.value.value(),
+              fit.starts.refined - fit.starts.in_best);
+}
+
 TEST(FitDecisions, OnlyFilmsAreSearchedFor) {
     const ModelDecision film =
         decision_on(measured_film(1800, 0.2, 4), anodised_options(), "global search");
     EXPECT_EQ(film.choice.rfind("thickness up to", 0), 0u);
     EXPECT_LT(film.error.value.value(), 1e-6);
+    EXPECT_GT(film.cost.value.value(), 1);
     // What the search is for: from a fringe's distance least squares ends in another minimum.
     const Measurement data = measured_film(1800, 0.2, 4);
     FitOptions beside = anodised_options();

@@ -63,6 +63,25 @@ TEST(Ladder, AnOffsetIsTakenWhereThereIsOne) {
     EXPECT_GT(fit.ladder[0].bic - fit.ladder[1].bic, ladder_bic_gain);
 }
 
+// Standard deviations stated too large bring every reduced chi-square below 1: that one falls
+// further from it speaks against none.
+TEST(Ladder, AnOffsetIsTakenUnderSigmasThatAreTooLarge) {
+    Measurement data = simulated(find_material("Cu-McPeak"), 2);
+    for (MeasurementRow& row : data.rows) {
+        row.angle_deg += 0.2;
+        row.sigma_psi_deg *= 2;
+        row.sigma_delta_deg *= 2;
+    }
+    FitOptions options;
+    options.model = "auto";
+    const FitResult fit = fit_measurement(data, options);
+    ASSERT_EQ(fit.ladder.size(), 2u);
+    EXPECT_LT(fit.ladder[0].chi2_reduced, 1);
+    EXPECT_LT(fit.chi2_reduced() + 3 * chi2_scatter(fit, options), 1);
+    ASSERT_EQ(fit.common.size(), 1u) << fit.ladder[1].objection;
+    EXPECT_NEAR(fit.common[0].value, -0.2, 2 * fit.common[0].sigma);
+}
+
 TEST(Ladder, CriterionIsSchwarzs) {
     FitResult fit;
     fit.chi2 = 120;
@@ -70,6 +89,10 @@ TEST(Ladder, CriterionIsSchwarzs) {
     fit.parameters = 4;
     EXPECT_DOUBLE_EQ(bayesian_criterion(fit, false), 120 + 4 * std::log(100.0));
     EXPECT_DOUBLE_EQ(bayesian_criterion(fit, true), 100 * std::log(1.2) + 4 * std::log(100.0));
+    fit.chi2 = 1e-24;
+    fit.parameters = 100;
+    EXPECT_TRUE(std::isnan(bayesian_criterion(fit, true)));
+    EXPECT_DOUBLE_EQ(bayesian_criterion(fit, false), 1e-24 + 100 * std::log(100.0));
 }
 
 TEST(Ladder, WhatHoldsNothingIsRefused) {
