@@ -20,17 +20,33 @@ LadderRung rung_of(const std::string& name, const FitResult& fit, bool unweighte
     return rung;
 }
 
+struct ExpectedChi2 {
+    double value = 1, scatter = 0;
+};
+
+// Of a formula that holds. A reduced chi-square below 1 says that standard deviations are stated
+// too large, nothing against a fit; where that of the points does, it is what the noise comes to.
+ExpectedChi2 expected_chi2(const FitResult& points, const FitResult& formula,
+                           const FitOptions& options) {
+    const double scatter = chi2_scatter(formula, options);
+    if (!(points.dof() > 0)) return {1, scatter};
+    const double noise = points.chi2_reduced(), of_points = chi2_scatter(points, options);
+    if (!(noise < 1 - 3 * of_points)) return {1, scatter};
+    return {noise, noise * std::hypot(scatter, of_points)};
+}
+
 std::string objection(const FitResult& points, const FitResult& formula,
                       const FitOptions& options) {
     if (formula.data < points.data) {
         return fmt::format("it explains {} data, fewer than {}", formula.data, points.data);
     }
     if (!(formula.dof() > 0)) return "it has as many parameters as data";
-    const double allowed = 3 * chi2_scatter(formula, options);
-    // Below 1 it says that standard deviations are stated too large, nothing against the formula.
-    if (!options.unweighted && formula.chi2_reduced() - 1 > allowed) {
-        return fmt::format("its reduced chi-square is {:.4g}, above 1 + {:.2g}",
-                           formula.chi2_reduced(), allowed);
+    if (!options.unweighted) {
+        const auto [expected, scatter] = expected_chi2(points, formula, options);
+        if (formula.chi2_reduced() > expected + 3 * scatter) {
+            return fmt::format("its reduced chi-square is {:.4g}, above {:.4g} + {:.2g}",
+                               formula.chi2_reduced(), expected, 3 * scatter);
+        }
     }
     const double gain = bayesian_criterion(points, options.unweighted) -
                         bayesian_criterion(formula, options.unweighted);

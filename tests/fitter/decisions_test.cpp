@@ -171,6 +171,18 @@ TEST(FitDecisions, SigmasStatedTooLargeSayNothingAgainstAFormula) {
     }
 }
 
+// What the formula is off by shows in the points' own residuals, whatever was stated.
+TEST(FitDecisions, SigmasStatedTooLargeDoNotHideWhatAFormulaIsOffBy) {
+    FitOptions options;
+    options.dispersion = "auto";
+    const Measurement copper = simulated(find_material("Cu-McPeak"), 2);
+    for (const double factor : {1.0, 1.5, 3.0}) {
+        const FitResult fit = fit_measurement(with_sigmas_times(copper, factor), options);
+        EXPECT_EQ(fit.dispersion, "") << factor;
+        EXPECT_FALSE(fit.ladder.at(1).objection.empty()) << factor;
+    }
+}
+
 TEST(FitDecisions, SigmasStatedTooSmallSpeakAgainstAFormula) {
     FitOptions options;
     options.dispersion = "auto";
