@@ -59,6 +59,7 @@ using Arguments3 = RTCIntersectContext;
 using ArgumentsO = RTCIntersectContext;
 #endif
 
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 // The linker's --wrap: callers of rtcIntersect1 arrive at __wrap_, __real_ is Embree's.
 extern "C" {
 void __real_rtcIntersect1(RTCScene scene, Arguments3* arguments, RTCRayHit* ray_hit);
@@ -77,6 +78,7 @@ void __wrap_rtcOccluded1(RTCScene scene, ArgumentsO* arguments, RTCRay* ray) {
     __real_rtcOccluded1(scene, arguments, ray);
 }
 }
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 namespace drude {
 namespace {

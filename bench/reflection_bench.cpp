@@ -24,7 +24,7 @@ template <int N>
 void bare_surface(benchmark::State& state) {
     const ComplexIndex<Packet<N>> index = indices<N>();
     float cosine = 0.1f;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const auto r = reflect(index, Packet<N>(cosine));
         benchmark::DoNotOptimize(r);
         cosine = cosine < 0.9f ? cosine + 0.01f : 0.1f;
@@ -37,7 +37,7 @@ BENCHMARK(bare_surface<40>);
 
 void bare_surface_double(benchmark::State& state) {
     double cosine = 0.1;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const auto r = reflect(ComplexIndex<double>{1.04, 2.59}, cosine);
         benchmark::DoNotOptimize(r);
         cosine = cosine < 0.9 ? cosine + 0.01 : 0.1;
@@ -50,7 +50,7 @@ void one_film(benchmark::State& state) {
     using P = Packet<8>;
     const ThinFilm<P> film{{P(1.7f), P(0.0f)}, P(3000.0f)};
     const ComplexIndex<P> substrate = indices<8>();
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const auto r = reflect(&film, 1, substrate, P(0.5f), P(550.0f));
         benchmark::DoNotOptimize(r);
     }
@@ -92,7 +92,7 @@ void film_formula(benchmark::State& state) {
         }
     }
     Angles angles;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const Row& row = rows[angles.phase()];
         const ThinFilm<P> film{{row.film_n, P(0.0f)}, P(static_cast<float>(state.range(0)))};
         const auto r =
@@ -106,7 +106,7 @@ BENCHMARK(film_formula)->Arg(100)->Arg(3000)->Arg(100000);
 void film_table(benchmark::State& state) {
     const FilmTable table(anodised(static_cast<double>(state.range(0))), 8);
     Angles angles;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const int phase = angles.phase();
         const auto r = table.at<8>(angles.cosine(), phase);
         benchmark::DoNotOptimize(r);
@@ -118,7 +118,7 @@ BENCHMARK(film_table)->Arg(100)->Arg(3000)->Arg(100000);
 
 void build_film_table(benchmark::State& state) {
     const Material material = anodised(static_cast<double>(state.range(0)));
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const FilmTable table(material, 8);
         benchmark::DoNotOptimize(table.bytes());
     }
@@ -131,7 +131,7 @@ void sample_lobe(benchmark::State& state) {
     const Microfacets<float> microfacets(lobe, masking, 0.2);
     const Vec3<float> o = glm::normalize(Vec3<float>(0.5f, 0.2f, 0.7f));
     float u = 0;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const auto s = microfacets.sample(o, u, 1 - u, 0.5f * u);
         benchmark::DoNotOptimize(s);
         u = u < 0.98f ? u + 0.01f : 0.0f;

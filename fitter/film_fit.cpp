@@ -125,7 +125,7 @@ void set_rival(const std::vector<FilmSolution>& solutions, FitResult* result) {
 void warn(FitResult* result, const FitOptions& options) {
     const bool unweighted = options.unweighted;
     if (options.film.spread_nm.given()) {
-        result->warnings.push_back(
+        result->warnings.emplace_back(
             "the material holds the mean thickness: its spread belongs to this beam, and is not "
             "written");
     }

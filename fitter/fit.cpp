@@ -240,7 +240,7 @@ void warn_about_result(FitResult* result, const FitOptions& options) {
         }
     }
     if (result->dof() <= 0) {
-        result->warnings.push_back(
+        result->warnings.emplace_back(
             "as many parameters as data: they cannot contradict the model, there is no reduced "
             "chi-square");
         return;

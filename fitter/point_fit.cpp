@@ -137,7 +137,7 @@ void fit_least_squares(const WavelengthData& data, Estimator estimator, const Av
                       "no surface explains the data: n and k run off to those of the vacuum");
     }
 
-    const size_t count = static_cast<size_t>(point->data);
+    const auto count = static_cast<size_t>(point->data);
     std::vector<double> residuals(count), jacobian(2 * count);
     const double* parameters[] = {index};
     double* jacobians[] = {jacobian.data()};
@@ -162,7 +162,7 @@ void take_inversion(const WavelengthData& data, const AveragedIndex& average, Fi
     if (average.angles == 0) return refuse(point, too_few(data, Estimator::inversion));
     double index[2] = {std::max(average.n, smallest_n), std::max(average.k, 0.0)};
     const auto cost = make_cost({&data, Estimator::inversion});
-    const size_t count = static_cast<size_t>(point->data);
+    const auto count = static_cast<size_t>(point->data);
     std::vector<double> residuals(count), jacobian(2 * count);
     const double* parameters[] = {index};
     double* jacobians[] = {jacobian.data()};

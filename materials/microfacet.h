@@ -398,7 +398,7 @@ class Microfacets {
     Vec3<T> sample_smith_beckmann(const Vec3<T>& o, T u1, T u2) const {
         const T beta = std::sqrt(density_.width());
         const Vec3<T> w = glm::normalize(Vec3<T>(beta * o.x, beta * o.y, o.z));
-        const double c = static_cast<double>(w.z);
+        const auto c = static_cast<double>(w.z);
         const double s = std::hypot(static_cast<double>(w.x), static_cast<double>(w.y));
         double along_x = 1, along_y = 0;
         if (s > 0) {

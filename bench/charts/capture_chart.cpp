@@ -125,7 +125,7 @@ ChartPoint point_of(const NamedRecipe& named, const std::vector<CaptureOutcome>&
     ChartPoint point;
     point.setting = named.setting;
     point.automatic = named.automatic;
-    const double n = static_cast<double>(outcomes.size());
+    const auto n = static_cast<double>(outcomes.size());
     std::vector<double> seconds;
     double squares = 0, pulls = 0;
     for (const CaptureOutcome& o : outcomes) {

@@ -39,7 +39,7 @@ double bright_luminance(const TracedPicture& picture) {
     for (size_t p = 0; p < picture.pixels(); ++p) {
         luminance.push_back(rgb_to_xyz(rgb_at(picture, p))[1]);
     }
-    const size_t at = static_cast<size_t>(0.99 * static_cast<double>(luminance.size() - 1));
+    const auto at = static_cast<size_t>(0.99 * static_cast<double>(luminance.size() - 1));
     std::nth_element(luminance.begin(), luminance.begin() + static_cast<std::ptrdiff_t>(at),
                      luminance.end());
     return luminance[at] / rgb_to_xyz({1, 1, 1})[1];

@@ -212,12 +212,12 @@ BenchResult run_defaults(const BenchOptions& options) {
     for (const Task& task : tasks) {
         Compared& one = all[task.scene];
         // Of other random numbers, so that noise is compared with noise.
-        const auto seed = static_cast<uint64_t>(2 * task.seed + (task.rich ? 1 : 0));
+        const auto seed = 2 * static_cast<uint64_t>(task.seed) + (task.rich ? 1 : 0);
         Run run = run_once(scenes[task.scene], task.rich ? richest_options() : RenderOptions{},
                            samples, seed);
         (task.rich ? one.rich_seconds : one.cheap_seconds).push_back(run.seconds);
         (task.rich ? one.rich_error : one.cheap_error).push_back(run.result.error.value_or(0));
-        (task.rich ? one.rich : one.cheap) = run.result;
+        (task.rich ? one.rich : one.cheap) = static_cast<const RenderSummary&>(run.result);
         if (task.seed == 1) (task.rich ? rich : cheap)[task.scene] = std::move(run.result);
         progress.step();
     }

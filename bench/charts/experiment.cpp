@@ -27,7 +27,7 @@ ChartPoint summary(const Setting& setting, const std::vector<Measured>& runs) {
     point.setting = setting.name;
     point.automatic = setting.automatic;
     std::vector<double> costs;
-    const double n = static_cast<double>(runs.size());
+    const auto n = static_cast<double>(runs.size());
     for (const Measured& run : runs) {
         costs.push_back(run.cost);
         point.error += run.error;

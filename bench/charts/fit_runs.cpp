@@ -105,7 +105,7 @@ FitFigure fit_delta_e(size_t scene) {
 
 ChartPoint fit_point_of(const FitRuns& fitted, const FitFigure& figure) {
     ChartPoint point;
-    const double seeds = static_cast<double>(fitted.outcomes.size());
+    const auto seeds = static_cast<double>(fitted.outcomes.size());
     std::vector<double> means, seconds;
     double left_out = 0;
     for (const auto& outcomes : fitted.outcomes) {

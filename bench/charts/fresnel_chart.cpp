@@ -62,7 +62,7 @@ Experiment experiment(int runs) {
     // Seeds go round the metals.
     const auto metal_of = [](uint64_t seed) { return static_cast<size_t>(seed) % 5; };
     std::vector<Method> timed;
-    const auto add = [&](std::function<double(uint64_t)> ns) {
+    const auto add = [&](const std::function<double(uint64_t)>& ns) {
         timed.push_back({"", {{"", [ns](uint64_t seed) { return Measured{ns(seed), 0}; }}}});
     };
     for (size_t m = 0; m < count; ++m) {

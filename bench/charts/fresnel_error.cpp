@@ -22,7 +22,8 @@ FresnelError fresnel_error(const FresnelMethod& method, const DenseIndex& metal)
             for (int lane = 0; lane < 8; ++lane) {
                 const int i = phase + lane * FresnelWavelengths::spacing;
                 const Reflection<double> exact = reflect(index_at(metal, i), cosine);
-                const auto at = static_cast<size_t>(ring * spectrum_integral_size + i);
+                const auto at =
+                    static_cast<size_t>(ring) * spectrum_integral_size + static_cast<size_t>(i);
                 values[at] = static_cast<double>(A[lane]);
                 truths[at] = exact.A();
                 const double difference = std::abs(values[at] - truths[at]);
@@ -38,12 +39,12 @@ FresnelError fresnel_error(const FresnelMethod& method, const DenseIndex& metal)
             }
         }
     }
-    const double count = static_cast<double>(values.size());
+    const auto count = static_cast<double>(values.size());
     error.rms = std::sqrt(squares / count);
     error.rms_psi_deg = std::sqrt(psi_squares / count);
     const auto picture_of = [](const std::vector<double>& of) {
         return sphere_picture([&](int i, int ring) {
-            return of[static_cast<size_t>(ring * spectrum_integral_size + i)];
+            return of[static_cast<size_t>(ring) * spectrum_integral_size + static_cast<size_t>(i)];
         });
     };
     const PictureError picture = picture_error(picture_of(values), picture_of(truths));

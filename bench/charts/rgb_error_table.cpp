@@ -40,7 +40,7 @@ BenchTable rgb_error_table() {
         "is that of sRGB, of the light's luminance.";
     table.columns = {"metal", "light"};
     for (const RgbMetal way : all_rgb_metals) {
-        table.columns.push_back(std::string(rgb_metal_name(way)));
+        table.columns.emplace_back(rgb_metal_name(way));
     }
     for (const char* name : {"Cu", "Au", "Ag", "Al", "Zn"}) {
         const DenseIndex metal = dense(published_set(name));

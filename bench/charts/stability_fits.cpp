@@ -259,8 +259,10 @@ std::vector<StabilityMap> film_fit_maps(int resolution, int seeds, bool all) {
     missing.x = {"wavelengths", {3, 12}};
     if (all) missing.x.at = {2, 3, 5, 8, 12, 20, 40, 100};
     missing.y = {"thickness (nm)", log_steps(50, 6000, resolution)};
-    fill_map(&missing,
-             [&](double x, double y) { return film_cell(y, 1, static_cast<int>(x), true, seeds); });
+    fill_map(&missing, [&](double x, double y) {
+        const int count = static_cast<int>(x);
+        return film_cell(y, 1, count, true, seeds);
+    });
     return {noise, missing};
 }
 

@@ -18,7 +18,7 @@ namespace {
 // Batches [first, first + batches) of one pixel, added to the picture.
 void add_batches(const BatchTracer& tracer, uint32_t first, int batches, int batch_size,
                  size_t pixel, TracedPicture* picture, PathStatistics* statistics) {
-    const size_t rows = static_cast<size_t>(picture->rows);
+    const auto rows = static_cast<size_t>(picture->rows);
     BatchRequest request;
     request.x = static_cast<int>(pixel % static_cast<size_t>(picture->width));
     request.y = static_cast<int>(pixel / static_cast<size_t>(picture->width));
@@ -100,7 +100,7 @@ double relative_product(const TracedPicture& a, const TracedPicture& b,
         row >= b.rows) {
         throw std::logic_error("relative_product: pictures of different shapes");
     }
-    const size_t rows = static_cast<size_t>(r.rows);
+    const auto rows = static_cast<size_t>(r.rows);
     std::vector<double> squares(r.pixels(), 0);
     double length = 0;
     for (size_t p = 0; p < r.pixels(); ++p) {

@@ -132,11 +132,11 @@ void add_findings(const Figures& f, Chart* chart) {
         "scalar leaves the picture's mean off by {}{}.", signed_percent(bias.mean, bias.sigma),
         std::abs(bias.mean) < bias.chance * bias.sigma ? ", which may be chance" : ""));
     if (!(bias.rms > 0)) {
-        chart->findings.push_back("What scalar does to single pixels is lost in their noise.");
+        chart->findings.emplace_back("What scalar does to single pixels is lost in their noise.");
         return;
     }
     // Noise falls as one over the root of the samples; here it meets the bias.
-    chart->findings.push_back(
+    chart->findings.emplace_back(
         fmt::format("Pixels are off by {:.3g} % (root mean square), as much as the noise of {:.2g} "
                     "samples a pixel.",
                     100 * bias.rms, f.most * std::pow(f.error[1] / bias.rms, 2)));

@@ -290,7 +290,7 @@ BenchResult run(const BenchOptions& options) {
                                         fmt::format("{}", e.automatic)};
         for (const int count : counts) {
             if (!has_curve(e.chart, count)) {
-                row.push_back("");
+                row.emplace_back();
                 continue;
             }
             const ChartCurve& curve = curve_of(e.chart, count);

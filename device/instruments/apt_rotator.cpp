@@ -83,7 +83,7 @@ AptMessage AptRotator::receive(Deadline deadline) {
     const std::vector<uint8_t> data =
         line_.read_exact(apt_data_size(bytes, where()), deadline_in(options_.silence_s));
     bytes.insert(bytes.end(), data.begin(), data.end());
-    const AptMessage message = parse_apt(bytes, where());
+    AptMessage message = parse_apt(bytes, where());
     if (message.id == apt::response || message.id == apt::rich_response) {
         device_error(Fault::refused, "{}: the controller reports {}", where(),
                      apt_response_words(message));

@@ -218,7 +218,7 @@ void Elliptec::home_after_reconnection() {
 double Elliptec::move_to(double degrees) {
     if (!std::isfinite(degrees)) user_error("{}: cannot be sent to {} degrees", where(), degrees);
     home_after_reconnection();
-    const double turn = static_cast<double>(identity_.pulses_per_turn);
+    const auto turn = static_cast<double>(identity_.pulses_per_turn);
     const double fraction = degrees / 360 - std::floor(degrees / 360);
     const int64_t target = std::llround(fraction * turn) % identity_.pulses_per_turn;
     const std::string command = fmt::format("ma{:08X}", target);

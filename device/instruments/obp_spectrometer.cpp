@@ -196,7 +196,7 @@ std::vector<uint32_t> parse_obp_spectrum(std::span<const uint8_t> data, const Ob
                      "{}: {} bytes came for a spectrum, which has {}", device, data.size(),
                      expected);
     }
-    const size_t width = static_cast<size_t>(model.bytes_per_count);
+    const auto width = static_cast<size_t>(model.bytes_per_count);
     std::vector<uint32_t> counts(static_cast<size_t>(model.pixels));
     for (size_t i = 0; i < counts.size(); ++i) {
         for (size_t j = width; j-- > 0;) {

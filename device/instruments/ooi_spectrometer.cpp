@@ -131,7 +131,7 @@ class OoiSpectrometer final : public UsbSpectrometer {
         }
         read_nonlinearity();
         if (model_.has_status && !high_speed_) {
-            info_.warnings.push_back(
+            info_.warnings.emplace_back(
                 "it is on a full-speed link (12 Mbit/s): spectra take longer; a USB 2 port without "
                 "an old hub between would be faster");
         }

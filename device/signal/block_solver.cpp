@@ -134,7 +134,7 @@ void BlockSolver::solve(const Factors& factors, const Block& block, int used, Bl
 void BlockSolver::remove_drift(const Factors& factors, Lane& drift) {
     const size_t rows = steps_.design.size();
     const int m = steps_.columns;
-    Lane c[most_columns];
+    Lane c[most_columns] = {};
     multiply(factors.timed, m + 1, y_, c);
     Lane inverse;
     for (int l = 0; l < lanes; ++l) {

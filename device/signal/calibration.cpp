@@ -74,14 +74,13 @@ nlohmann::ordered_json curve_json(const WavelengthCurve& curve) {
 
 }  // namespace
 
-double WavelengthCurve::at(double wavelength_nm_, double otherwise) const {
+double WavelengthCurve::at(double nm, double otherwise) const {
     if (!known()) return otherwise;
-    const auto above = std::upper_bound(wavelength_nm.begin(), wavelength_nm.end(), wavelength_nm_);
+    const auto above = std::upper_bound(wavelength_nm.begin(), wavelength_nm.end(), nm);
     if (above == wavelength_nm.begin()) return value.front();
     if (above == wavelength_nm.end()) return value.back();
     const auto i = static_cast<size_t>(above - wavelength_nm.begin());
-    const double t =
-        (wavelength_nm_ - wavelength_nm[i - 1]) / (wavelength_nm[i] - wavelength_nm[i - 1]);
+    const double t = (nm - wavelength_nm[i - 1]) / (wavelength_nm[i] - wavelength_nm[i - 1]);
     return value[i - 1] + t * (value[i] - value[i - 1]);
 }
 

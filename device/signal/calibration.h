@@ -14,7 +14,7 @@ struct WavelengthCurve {
 
     bool known() const { return !wavelength_nm.empty(); }
     // `otherwise` where nothing is known.
-    double at(double wavelength_nm_, double otherwise) const;
+    double at(double nm, double otherwise) const;
 };
 
 // File format "drude-calibration/1" (JSON); unknown keys are errors.

@@ -55,7 +55,7 @@ class ByteReader {
             good_ = false;
             return {};
         }
-        const std::string value(bytes_.substr(at_, size));
+        std::string value(bytes_.substr(at_, size));
         at_ += size;
         return value;
     }

@@ -126,7 +126,7 @@ struct Scatter {
 
 Scatter scatter(const std::vector<Frame>& frames) {
     const size_t pixels = frames.front().counts.size();
-    const double n = static_cast<double>(frames.size());
+    const auto n = static_cast<double>(frames.size());
     Scatter s{std::vector<double>(pixels), std::vector<double>(pixels),
               std::vector<uint32_t>(pixels)};
     for (const Frame& frame : frames) {

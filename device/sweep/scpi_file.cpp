@@ -56,7 +56,7 @@ void check_command(const JsonValue& value, const std::string& text) {
 }
 
 std::string read_command(const JsonValue& value, const TextKey& key) {
-    const std::string text = value.string();
+    std::string text = value.string();
     check_command(value, text);
     if (text.empty()) {
         if (key.may_be_empty) return text;
@@ -88,8 +88,8 @@ ScpiFormat read_format(const JsonValue& value) {
 
 ScpiCommands read_scpi_commands(const JsonValue& object) {
     std::vector<std::string> allowed = {"setup", "format", "swapped", "max_counts"};
-    for (const TextKey& key : text_keys()) allowed.push_back(key.name);
-    for (const TimeKey& key : time_keys) allowed.push_back(key.name);
+    for (const TextKey& key : text_keys()) allowed.emplace_back(key.name);
+    for (const TimeKey& key : time_keys) allowed.emplace_back(key.name);
     object.allow_keys(allowed);
     ScpiCommands commands;
     for (const TextKey& key : text_keys()) {

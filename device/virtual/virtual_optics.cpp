@@ -56,9 +56,9 @@ Mueller<double> retarder(double retardance_deg, double diattenuation) {
 }
 
 // Relative spectral energy of a black body (Planck) times a bell-shaped response of the detector.
-double lamp_shape(double wavelength_nm, double temperature_K) {
-    constexpr double second_radiation_constant_nm_K = 1.438776877e7;
-    const double x = second_radiation_constant_nm_K / (wavelength_nm * temperature_K);
+double lamp_shape(double wavelength_nm, double kelvin) {
+    constexpr double second_radiation_constant = 1.438776877e7;  // nm K
+    const double x = second_radiation_constant / (wavelength_nm * kelvin);
     const double planck = std::pow(wavelength_nm / 1000, -5) / std::expm1(x);
     const double bell = (wavelength_nm - 500) / 180;
     return planck * std::exp(-bell * bell / 2);
@@ -182,7 +182,8 @@ void VirtualOptics::add_light(const OpticalState& state, double seconds, double 
     std::array<double, 9> weight;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
-            weight[static_cast<size_t>(3 * i + j)] = scale * analyser.m[0][i] * in[j];
+            weight[3 * static_cast<size_t>(i) + static_cast<size_t>(j)] =
+                scale * analyser.m[0][i] * in[j];
         }
     }
     const std::shared_ptr<const BetweenElements> between = paths_->at(*this, state);

@@ -69,7 +69,7 @@ std::string target_by_extension(const std::string& output) {
 
 std::vector<std::string> write_spd_pair(const OpticalConstants& constants, std::string base) {
     if (ends_with(base, ".spd")) base.resize(base.size() - 4);
-    const std::vector<std::string> files = {base + ".eta.spd", base + ".k.spd"};
+    std::vector<std::string> files = {base + ".eta.spd", base + ".k.spd"};
     write_file(files[0], format_spd(constants, IndexPart::n));
     write_file(files[1], format_spd(constants, IndexPart::k));
     return files;
@@ -137,7 +137,7 @@ Converted convert_measurement(const std::string& text, const ConvertOptions& opt
             options.input, options.to);
     }
     Measurement measurement = parse_measurement_as(text, options.input, options.format);
-    if (measurement.header_value("imported_from").size() > 0) {
+    if (!measurement.header_value("imported_from").empty()) {
         measurement.header.emplace_back("source_file",
                                         std::filesystem::path(options.input).filename().string());
     }

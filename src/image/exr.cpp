@@ -43,7 +43,7 @@ Image read_part(Imf::MultiPartInputFile& file, const std::string& path) {
 
     // Memory is reserved, but touched only as rows are decoded: a damaged header that promises
     // more than the file holds costs nothing.
-    const size_t width = static_cast<size_t>(image.width);
+    const auto width = static_cast<size_t>(image.width);
     for (Channel& channel : image.channels) channel.data.reserve(image.pixels());
     Imf::InputPart part(file, 0);
     const auto& window = header.dataWindow();
@@ -97,7 +97,7 @@ void write_exr(const std::string& path, const Image& image, Compression compress
         }
         picture.channels.push_back({channel.name, ExrSamples::float32});
     }
-    const size_t width = static_cast<size_t>(image.width);
+    const auto width = static_cast<size_t>(image.width);
     write_exr_rows(path, picture, compression, [&](int y, uint32_t* words) {
         for (const Channel& channel : image.channels) {
             std::memcpy(words, &channel.data[static_cast<size_t>(y) * width],

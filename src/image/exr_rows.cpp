@@ -165,9 +165,11 @@ class RowBuffer {
                                   static_cast<intptr_t>(x_stride) * x -
                                   static_cast<intptr_t>(y_stride) * (int64_t{y} + first);
             const bool whole = picture_.channels[c].samples == ExrSamples::uint32;
+            // A slice begins where the window's origin would be, which no pointer may point to.
+            // NOLINTNEXTLINE(performance-no-int-to-ptr)
+            char* const origin = reinterpret_cast<char*>(base);
             result.insert(picture_.channels[c].name,
-                          Imf::Slice(whole ? Imf::UINT : Imf::FLOAT, reinterpret_cast<char*>(base),
-                                     x_stride, y_stride));
+                          Imf::Slice(whole ? Imf::UINT : Imf::FLOAT, origin, x_stride, y_stride));
         }
         return result;
     }

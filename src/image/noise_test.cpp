@@ -248,10 +248,10 @@ NoiseTest noise_test(const Image& a, const Image& b, const std::vector<std::stri
     constexpr double families = 3.0, power = 0.95;
     const double degrees_a = batches_of(a, name_a) - 1.0;
     const double degrees_b = batches_of(b, name_b) - 1.0;
-    const size_t width = static_cast<size_t>(a.width), height = static_cast<size_t>(a.height);
+    const auto width = static_cast<size_t>(a.width), height = static_cast<size_t>(a.height);
     const size_t blocks_x = (width + block_side - 1) / block_side;
     const size_t blocks_y = (height + block_side - 1) / block_side;
-    const double channel_count = static_cast<double>(channels.size());
+    const auto channel_count = static_cast<double>(channels.size());
     const double global_alpha = sidak_each(sidak_each(alpha, families), channel_count);
 
     NoiseTest result;

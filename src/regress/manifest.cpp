@@ -25,7 +25,7 @@ double fraction(const JsonValue& value) {
 }
 
 std::string file_word(const JsonValue& value) {
-    const std::string text = value.string();
+    std::string text = value.string();
     const auto fits = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                c == '-' || c == '_' || c == '.';

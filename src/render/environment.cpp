@@ -124,7 +124,7 @@ Environment::Environment(const Image& image, double scale, const glm::dmat4& wor
     double rows = build(compensated ? static_cast<float>(mean_luminance_) : 0.0f);
     // A constant sky has nothing above its mean.
     if (!(rows > 1e-6 * mean_luminance_ * static_cast<double>(texels_.size()))) rows = build(0);
-    const float normalise = static_cast<float>(static_cast<double>(texels_.size()) / rows);
+    const auto normalise = static_cast<float>(static_cast<double>(texels_.size()) / rows);
     for (glm::vec4& t : texels_) t.w *= normalise;
     rows_ = CumulativeRows(row_sums, static_cast<size_t>(height_));
     groups_ = CumulativeRows(group_sums, groups);

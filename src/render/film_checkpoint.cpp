@@ -74,7 +74,7 @@ bool resume_from(const std::string& path, bool allow_mixed, FilmPart* part, Film
         user_error("--resume: {} begins at batch {}, another shard than this, which begins at {}",
                    path, held.first, part->first);
     }
-    const size_t width = static_cast<size_t>(part->job.width);
+    const auto width = static_cast<size_t>(part->job.width);
     for (int y = 0; y < part->job.height; ++y) {
         reader.read_row(y, sums, static_cast<size_t>(y) * width);
     }

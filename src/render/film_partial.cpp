@@ -28,7 +28,8 @@ std::string_view bytes_of(const uint32_t* words, size_t count) {
 // Everything that a reader relies on, as one text.
 std::string relied_on(const FilmPart& part) {
     std::string text;
-    for (const auto& [name, value] : part.job.fields()) text += name + "=" + value + "\n";
+    for (const auto& [name, value] : part.job.fields())
+        text.append(name).append("=").append(value).append("\n");
     const FilmCounts& c = part.counts;
     return text + fmt::format("{} {} {} {} {} {} {} {} {}", part.batches, part.first, part.last,
                               part.fewest, c.rays, c.projections, c.not_finite, c.out_of_range,
@@ -177,7 +178,7 @@ void write_partial(const std::string& path, const FilmPart& part, const FilmSums
     a["outOfRange"] = fmt::format("{}", part.counts.out_of_range);
     a["renderSeconds"] = format_double(part.counts.seconds);
     a["commandLine"] = command_line;
-    const size_t width = static_cast<size_t>(picture.width);
+    const auto width = static_cast<size_t>(picture.width);
     write_exr_rows(path, picture, Compression::none, [&](int y, uint32_t* words) {
         format.write_row(sums, static_cast<size_t>(y) * width, words);
     });

@@ -36,7 +36,7 @@ std::string receive_text(const Ranks& ranks, int from) {
 std::pair<std::string, std::string> described(const FilmJob& job) {
     std::string text;
     for (const auto& [name, value] : job.fields()) {
-        if (name != "instruction set") text += name + " " + value + ", ";
+        if (name != "instruction set") text.append(name).append(" ").append(value).append(", ");
     }
     return {text, job.instruction_set};
 }
@@ -69,7 +69,7 @@ void receive_film(const Ranks& ranks, int from, bool allow_mixed, RenderedFilm* 
     FilmLayout one_row = part.job.layout();
     one_row.height = 1;
     FilmSums row(one_row);
-    const size_t width = static_cast<size_t>(part.job.width);
+    const auto width = static_cast<size_t>(part.job.width);
     std::vector<uint32_t> words(width * format.channels());
     for (size_t first = 0; first < film->sums.layout().pixels(); first += width) {
         ranks.receive(from, words.data(), words.size() * sizeof(uint32_t));
@@ -93,7 +93,7 @@ void send_film(const Ranks& ranks, const RenderedFilm& film) {
     send_text(ranks, job);
     send_text(ranks, isa);
     const FilmWords format(part);
-    const size_t width = static_cast<size_t>(part.job.width);
+    const auto width = static_cast<size_t>(part.job.width);
     std::vector<uint32_t> words(width * format.channels());
     for (size_t first = 0; first < film.sums.layout().pixels(); first += width) {
         format.write_row(film.sums, first, words.data());

@@ -104,7 +104,7 @@ bool FilmSums::add(size_t pixel, const BatchResult& batch) {
     if (!layout_.spectral) return true;
     for (int row = 0; row < layout_.rows; ++row) {
         for (int bin = 0; bin < spectral_bins; ++bin) {
-            const double value = static_cast<double>(batch.spectral[row][bin]);
+            const auto value = static_cast<double>(batch.spectral[row][bin]);
             const size_t at = (pixel * layout_.rows + row) * spectral_bins + bin;
             raise_spectral(at, stored_level(std::abs(value)));
             if (spectral_levels_[at] == 0) continue;

@@ -166,7 +166,7 @@ Geometry::Geometry(const Scene& scene, const std::string& isa,
                               static_cast<unsigned>(&mesh - impl_->meshes.data()));
         rtcReleaseGeometry(geometry);
     }
-    const unsigned first_id = static_cast<unsigned>(impl_->meshes.size());
+    const auto first_id = static_cast<unsigned>(impl_->meshes.size());
     impl_->spheres.attach(impl_->device, impl_->embree, first_id);
     impl_->disks.attach(impl_->device, impl_->embree, first_id + 1);
     impl_->cylinders.attach(impl_->device, impl_->embree, first_id + 2);

@@ -58,7 +58,7 @@ void add_geometry_layers(const Scene& scene, const Geometry& geometry, const Cam
             set(u, at.uv().x);
             set(v, at.uv().y);
             const int index = scene.shapes[hit.shape].material;
-            const double cosine = static_cast<double>(glm::dot(vertex.hit.ns, vertex.out));
+            const auto cosine = static_cast<double>(glm::dot(vertex.hit.ns, vertex.out));
             set_vector(red, albedos(index, at, cosine));
             set(material, index);
         }

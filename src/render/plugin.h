@@ -16,6 +16,7 @@
 #ifndef DRUDE_RENDER_PLUGIN_H
 #define DRUDE_RENDER_PLUGIN_H
 
+/* C, whatever C++ has for it. NOLINTBEGIN(modernize-use-using,modernize-deprecated-headers) */
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -175,4 +176,5 @@ DRUDE_PLUGIN_EXPORT const DrudeSurfacePlugin* drude_surface_plugin(void);
 }
 #endif
 
+/* NOLINTEND(modernize-use-using,modernize-deprecated-headers) */
 #endif

@@ -37,7 +37,7 @@ class ReferenceTracer {
     std::vector<Stokes<double>> trace(double x, double y, const std::vector<double>& nm,
                                       ReferenceRandom& random, uint64_t* rays) const {
         if (!surfaces_.is_dispersive()) return path(x, y, nm, random, rays);
-        const size_t only = static_cast<size_t>(random() * static_cast<double>(nm.size()));
+        const auto only = static_cast<size_t>(random() * static_cast<double>(nm.size()));
         std::vector<Stokes<double>> sum(nm.size(), Stokes<double>{{0, 0, 0, 0}});
         sum[only] = path(x, y, {nm[only]}, random, rays)[0];
         for (double& s : sum[only].s) s *= static_cast<double>(nm.size());
@@ -224,10 +224,11 @@ ReferenceResult render_reference(const Scene& scene, const ReferenceOptions& opt
                 const auto& band = options.bands_nm[b];
                 nm[b] = band[static_cast<size_t>(random() * static_cast<double>(band.size()))];
             }
-            const auto stokes = tracer.trace(
-                static_cast<double>(pixel % static_cast<size_t>(result.width)) + 0.5 + dx,
-                static_cast<double>(pixel / static_cast<size_t>(result.width)) + 0.5 + dy, nm,
-                random, &own_rays);
+            const auto width = static_cast<size_t>(result.width);
+            const size_t column = pixel % width, row = pixel / width;
+            const auto stokes =
+                tracer.trace(static_cast<double>(column) + 0.5 + dx,
+                             static_cast<double>(row) + 0.5 + dy, nm, random, &own_rays);
             for (size_t b = 0; b < bands; ++b) {
                 for (int i = 0; i < 4; ++i) {
                     sum[b][i] += stokes[b][i];

@@ -101,7 +101,7 @@ double ReferenceSky::radiance(const glm::dvec3& d, double nm) const {
     for (int c = 0; c < 3; ++c) {
         const Channel* channel = image_.find(std::string(1, "RGB"[c]));
         if (!channel) channel = &image_.at("Y", light_.image);
-        const double value =
+        const auto value =
             static_cast<double>(channel->data[static_cast<size_t>(y) * image_.width + x]);
         if (value > 0 && std::isfinite(value)) sum += value * spectrum_at(basis_[c], nm);
     }

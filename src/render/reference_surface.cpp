@@ -56,7 +56,7 @@ Matrix plugin_matrix(const PluginSurface& surface, double nm, const Vec& in, con
     copy(out_frame, directions.x_out);
     copy(in_frame, directions.x_in);
     directions.handedness = static_cast<float>(handedness);
-    const float wavelength = static_cast<float>(nm);
+    const auto wavelength = static_cast<float>(nm);
     float elements[16] = {};
     surface.evaluate(directions, &wavelength, 1, elements);
     Matrix m;

@@ -184,7 +184,8 @@ RenderedFilm render_film(const Scene& scene, const RenderOptions& options) {
             "which comes over more mirrors is noise",
             scene.max_depth, most_certain_bounces));
     }
-    if (lights.empty()) summary.warnings.push_back("the scene has no light; the picture is black");
+    if (lights.empty())
+        summary.warnings.emplace_back("the scene has no light; the picture is black");
     const CameraRays camera(scene.camera, scene.film.width, scene.film.height);
     const PixelFilter filter(scene.filter);
     const BounceChoice bounces = bounce_choice(scene);
@@ -259,7 +260,7 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
     image.attributes = picture_attributes(film.part.job, film.part.first, film.part.fewest);
     const FilmLayers layers(film.sums.layout(), film.part.fewest >= 2);
     for (const ExrChannel& channel : layers.channels()) image.add(channel.name);
-    const size_t width = static_cast<size_t>(image.width);
+    const auto width = static_cast<size_t>(image.width);
     std::vector<uint32_t> words(width * layers.channels().size());
     const size_t own = image.channels.size();
     for (const Channel& channel : film.geometry.channels) image.channels.push_back(channel);
@@ -288,7 +289,7 @@ void write_film(const std::string& path, const RenderedFilm& film,
     picture.attributes = picture_attributes(film.part.job, film.part.first, film.part.fewest);
     for (const auto& [name, value] : film.geometry.attributes) picture.attributes[name] = value;
     picture.attributes["commandLine"] = command_line;
-    const size_t width = static_cast<size_t>(picture.width);
+    const auto width = static_cast<size_t>(picture.width);
     write_exr_rows(path, picture, Compression::piz, [&](int y, uint32_t* words) {
         const size_t first = static_cast<size_t>(y) * width;
         layers.row(film.sums, first, words);

@@ -187,8 +187,7 @@ void show_profile(const FitReport& report, Page* page) {
     constexpr size_t most = 60;
     const size_t step = std::max<size_t>(1, (parameters.size() + most - 1) / most);
     size_t wavelengths = 0;
-    for (size_t i = 0; i < parameters.size(); ++i) {
-        const ProfiledParameter& p = parameters[i];
+    for (const ProfiledParameter& p : parameters) {
         // n and k of a wavelength stay together.
         if (p.wavelength_nm > 0 && (wavelengths++ / 2) % step != 0) continue;
         table.rows.push_back({named(p.name, p.unit),

@@ -51,11 +51,10 @@ PairStatistics pair_statistics(const Image& fitted, const Image& literature) {
     s.log10 = summary(finite);
     s.pixels = differing.size();
     if (differing.empty()) return s;
-    const double count = static_cast<double>(s.pixels);
+    const auto count = static_cast<double>(s.pixels);
     s.white = percentile(luminance, 0.99);
     double total = 0, moved = 0;
-    for (size_t j = 0; j < differing.size(); ++j) {
-        const size_t i = differing[j];
+    for (const size_t i : differing) {
         s.mean_absolute += std::pow(10.0, logs[i]) / count;
         const RGB x = {a[0]->data[i], a[1]->data[i], a[2]->data[i]};
         const RGB y = {b[0]->data[i], b[1]->data[i], b[2]->data[i]};

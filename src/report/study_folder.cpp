@@ -23,7 +23,7 @@ constexpr uint64_t largest_record = uint64_t{1} << 22;
 
 // A folder within the study's: a single name, so that a record cannot lead elsewhere.
 std::string folder_name(const JsonValue& value) {
-    const std::string name = value.string();
+    std::string name = value.string();
     if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos) {
         user_error_at(value.place(), "{}: found '{}', expected the name of a folder in the study's",
                       value.shown(), name);

@@ -61,7 +61,7 @@ void scale_by(double factor, SpectrumValue* value, BuildContext& context) {
     if (value->texture >= 0) {
         Textures& textures = context.textures;
         const int visits = textures.spectrum_visits[value->texture] + 1;
-        textures.spectrum_textures.push_back(ScaleTexture<SpectrumValue>{*value, {factor, -1}});
+        textures.spectrum_textures.emplace_back(ScaleTexture<SpectrumValue>{*value, {factor, -1}});
         textures.spectrum_visits.push_back(visits);
         value->texture = static_cast<int>(textures.spectrum_textures.size()) - 1;
     }

@@ -9,6 +9,7 @@
 //                                  the project's lobes; instead of roughness
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "base/numbers.h"
 #include "materials/film_table.h"
@@ -55,6 +56,7 @@ Constant read_constant(ParameterList& list, const std::string& name, bool is_k,
                     place};
         }
     }
+    if (parameter == nullptr) throw std::logic_error("the published set of copper is missing");
     if (parameter->type == ParameterType::spectrum) {
         return {sampled_table(*parameter, context), nullptr, place};
     }

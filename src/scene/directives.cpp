@@ -194,7 +194,7 @@ std::string Parser::type_of(ParameterList& list, const std::string& kind) {
     if (!list.has("type")) {
         user_error_at(list.place(), "{} without \"string type\"; expected it", list.owner());
     }
-    const std::string type = list.text("type", "");
+    std::string type = list.text("type", "");
     check_name(kind, type, list.place_of("type"));
     return type;
 }

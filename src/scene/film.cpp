@@ -37,8 +37,9 @@ void read_crop(ParameterList& list, Messages& messages, FilmRecipe* recipe) {
     if (const Parameter* pixels = range(list, "pixelbounds", ParameterType::integer)) {
         used = pixels;
         for (size_t i = 0; i < 4; ++i) {
-            bounds[i] = static_cast<int>(
-                std::clamp(pixels->numbers[i], 0.0, static_cast<double>(size[i / 2])));
+            const int side = size[i / 2];
+            bounds[i] =
+                static_cast<int>(std::clamp(pixels->numbers[i], 0.0, static_cast<double>(side)));
             if (bounds[i] != pixels->numbers[i]) {
                 messages.note(pixels->place,
                               fmt::format("{}: pixelbounds reach beyond the picture of {} x {} "
@@ -62,7 +63,8 @@ void read_crop(ParameterList& list, Messages& messages, FilmRecipe* recipe) {
                               "(pixelbounds takes pixels)",
                               list.owner(), format_double(fraction));
             }
-            bounds[i] = static_cast<int>(std::ceil(fraction * size[i / 2]));
+            const int side = size[i / 2];
+            bounds[i] = static_cast<int>(std::ceil(fraction * side));
         }
     }
     if (used == nullptr) return;

@@ -136,7 +136,7 @@ double upper_illuminance(const Image& image, const std::string& where) {
     const auto luminance = [&](size_t texel) {
         RGB value;
         for (size_t c = 0; c < 3; ++c) {
-            const double v = static_cast<double>(rgb[c]->data[texel]);
+            const auto v = static_cast<double>(rgb[c]->data[texel]);
             value[c] = v >= 0 && std::isfinite(v) ? v : 0;
         }
         return rgb_to_xyz(value)[1];
@@ -157,8 +157,9 @@ double upper_illuminance(const Image& image, const std::string& where) {
             if (!lat_long) {
                 weight = 0;
                 for (int i = 0; i < grid * grid; ++i) {
-                    const glm::dvec2 p((x + (i % grid + 0.5) / grid) / image.width,
-                                       (y + (i / grid + 0.5) / grid) / image.height);
+                    const int column = i % grid, row = i / grid;
+                    const glm::dvec2 p((x + (column + 0.5) / grid) / image.width,
+                                       (y + (row + 0.5) / grid) / image.height);
                     weight += std::max(0.0, equal_area_direction(p).z);
                 }
                 weight *=

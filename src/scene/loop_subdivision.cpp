@@ -234,7 +234,7 @@ class Surface {
 
     // The left eigenvector of the subdivision matrix for the eigenvalue 1.
     glm::dvec3 inner_limit(unsigned v, const std::vector<glm::dvec3>& around) const {
-        const double n = static_cast<double>(around.size());
+        const auto n = static_cast<double>(around.size());
         const double gamma = 1 / (n + 3 / (8 * beta(around.size())));
         return (1 - n * gamma) * positions_[v] + gamma * sum(around);
     }

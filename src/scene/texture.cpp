@@ -149,7 +149,7 @@ class TextureBuilder {
 
     Value read_scale() {
         ScaleTexture<Value> scale{operand("tex", 1), factor("scale", 1)};
-        const Value middle = typical<Value>({{scale.scale.constant, &scale.texture}});
+        const auto middle = typical<Value>({{scale.scale.constant, &scale.texture}});
         if (scale.texture.texture < 0 && scale.scale.texture < 0) return middle;
         const int visits = visits_of(scale.texture) + visits_of(scale.scale);
         return add(std::move(scale), middle, visits);
@@ -158,7 +158,7 @@ class TextureBuilder {
     Value read_mix() {
         MixTexture<Value> mix{operand("tex1", 0), operand("tex2", 1), factor("amount", 0.5)};
         const double t = mix.amount.constant;
-        const Value middle = typical<Value>({{1 - t, &mix.first}, {t, &mix.second}});
+        const auto middle = typical<Value>({{1 - t, &mix.first}, {t, &mix.second}});
         if (mix.amount.texture < 0) {
             if (mix.first.texture < 0 && mix.second.texture < 0) return middle;
             if (t == 0) return mix.first;
@@ -178,7 +178,7 @@ class TextureBuilder {
         } else {
             board.mapping.texture_from_world = glm::inverse(world_from_texture_);
         }
-        const Value middle = typical<Value>({{0.5, &board.first}, {0.5, &board.second}});
+        const auto middle = typical<Value>({{0.5, &board.first}, {0.5, &board.second}});
         const int visits = visits_of(board.first) + visits_of(board.second);
         return add(std::move(board), middle, visits);
     }
@@ -190,7 +190,7 @@ class TextureBuilder {
         bilerp.v01 = corner("v01", 1);
         bilerp.v10 = corner("v10", 0);
         bilerp.v11 = corner("v11", 1);
-        const Value middle = typical<Value>(
+        const auto middle = typical<Value>(
             {{0.25, &bilerp.v00}, {0.25, &bilerp.v01}, {0.25, &bilerp.v10}, {0.25, &bilerp.v11}});
         return add(std::move(bilerp), middle, 0);
     }
@@ -205,7 +205,7 @@ class TextureBuilder {
                           list_.owner());
         }
         mix.direction = direction / length;
-        const Value middle = typical<Value>({{0.5, &mix.first}, {0.5, &mix.second}});
+        const auto middle = typical<Value>({{0.5, &mix.first}, {0.5, &mix.second}});
         const int visits = visits_of(mix.first) + visits_of(mix.second);
         return add(std::move(mix), middle, visits);
     }

@@ -76,7 +76,7 @@ int SceneReader::resolved(int material) const {
 // A mix may be made of mixes, but not of itself.
 void SceneReader::resolve_mixes() {
     for (auto& entry : mixes_) {
-        MixMaterial& mix = std::get<MixMaterial>(scene_.materials[entry.first]);
+        auto& mix = std::get<MixMaterial>(scene_.materials[entry.first]);
         mix.first = resolved(mix.first);
         mix.second = resolved(mix.second);
     }
