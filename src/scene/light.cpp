@@ -157,9 +157,9 @@ double upper_illuminance(const Image& image, const std::string& where) {
             if (!lat_long) {
                 weight = 0;
                 for (int i = 0; i < grid * grid; ++i) {
-                    const int column = i % grid, row = i / grid;
+                    const int column = i % grid, line = i / grid;
                     const glm::dvec2 p((x + (column + 0.5) / grid) / image.width,
-                                       (y + (row + 0.5) / grid) / image.height);
+                                       (y + (line + 0.5) / grid) / image.height);
                     weight += std::max(0.0, equal_area_direction(p).z);
                 }
                 weight *=
