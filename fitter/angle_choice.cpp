@@ -66,7 +66,7 @@ Table information_table(const Measurement& measurement, const FitOptions& option
                         const FitResult& fit, const std::vector<double>& angles) {
     const Estimator estimator = fit.estimator == "rho2" ? Estimator::rho2 : Estimator::psi_delta;
     // Without stated standard deviations rows have one of a degree each, until the residuals tell.
-    const double noise = options.unweighted && fit.dof() > 0 ? fit.chi2_reduced() : 1;
+    const double noise = noise_variance(fit, options);
     Table table;
     for (const WavelengthData& group : group_by_wavelength(measurement, options)) {
         const auto point = std::find_if(

@@ -102,7 +102,7 @@ BootstrapResult bootstrap(const Measurement& measurement, const FitOptions& opti
     again.threads = 1;  // the draws are what runs in parallel
     again.weights.clear();
     const Measurement model = model_curve(fit, measurement);
-    const double scale = options.unweighted && fit.dof() > 0 ? std::sqrt(fit.chi2_reduced()) : 1;
+    const double scale = std::sqrt(noise_variance(fit, options));
     std::vector<double> sigma_psi_deg, sigma_delta_deg;
     for (const MeasurementRow& row : model.rows) {
         const AnglePoint point = angle_point(row, options);

@@ -208,7 +208,7 @@ ModelDecision search_decision(const FitOptions& options, const FitResult& fit) {
     if (fit.rival_thickness_nm > 0) {
         // Odds of the two minima for equal priors, of the noise that the residuals show where no
         // other is stated.
-        const double noise = options.unweighted && fit.dof() > 0 ? fit.chi2_reduced() : 1;
+        const double noise = noise_variance(fit, options);
         decision.error = {
             std::exp(-0.5 * std::min(1400.0, fit.rival_chi2_excess / noise)), unit,
             fmt::format("computed: {:.6g} nm, chi-square {:.3g} more; {}", fit.rival_thickness_nm,

@@ -260,8 +260,7 @@ FitResult fit_film(const Measurement& measurement, const FitOptions& options) {
             fmt::format("no fit: {} data do not determine the thickness of the film", result.data));
     }
     for (const double residual : residuals) result.chi2 += residual * residual;
-    const double scale =
-        options.unweighted && result.dof() > 0 ? std::sqrt(result.chi2_reduced()) : 1;
+    const double scale = std::sqrt(noise_variance(result, options));
     set_common(best, free, known, scale, range, &result);
     set_points(problem, best, free[1] ? known.sigma[1] * scale : 0, residuals, &result);
     set_layer(problem, best, options, &result);

@@ -275,6 +275,10 @@ double chi2_scatter(const FitResult& result, const FitOptions& options) {
     return std::sqrt(2.0 / result.dof()) + options.chi2_common_scatter;
 }
 
+double noise_variance(const FitResult& result, const FitOptions& options) {
+    return options.unweighted && result.dof() > 0 ? result.chi2_reduced() : 1;
+}
+
 FitResult fit_measurement(const Measurement& measurement, const FitOptions& options) {
     const Estimator estimator = parse_estimator(options.estimator);
     check_options(options);

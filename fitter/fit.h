@@ -96,6 +96,10 @@ const std::vector<std::string>& fit_model_names();
 // parameters.
 double chi2_scatter(const FitResult& result, const FitOptions& options);
 
+// The variance of the noise over the one that residuals are divided by: 1, but where nothing is
+// stated (`unweighted`) the reduced chi-square, as far as there are more data than parameters.
+double noise_variance(const FitResult& result, const FitOptions& options);
+
 // Fits without start values. The models bulk and overlayer take every wavelength by itself, with
 // n >= 1e-6 and k >= 0, or follow a dispersion formula; film takes all wavelengths together, from a
 // search of its own.

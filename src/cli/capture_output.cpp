@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "base/sha256.h"
 #include "cli/json_output.h"
+#include "cli/warnings.h"
 
 namespace drude {
 
@@ -112,9 +113,7 @@ void write_reduction(const Journal& journal, const CaptureOutput& what,
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     write_file(what.output, result.text);
-    for (const std::string& warning : result.warnings) {
-        fmt::print(stderr, "drude: warning: {}\n", warning);
-    }
+    print_warnings(result.warnings);
     if (!common.json) return print_summary(journal, result, what);
     std::vector<double> exposures;
     for (const JournalExposure& exposure : journal.exposures) {

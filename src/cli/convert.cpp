@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "cli/command_list.h"
 #include "cli/json_output.h"
+#include "cli/warnings.h"
 #include "fitter/export.h"
 #include "fitter/import.h"
 #include "fitter/import_constants.h"
@@ -158,9 +159,7 @@ Converted convert(const ConvertOptions& options) {
 
 int run_convert(const ConvertOptions& options, const CommonOptions& common) {
     const Converted converted = convert(options);
-    for (const std::string& warning : converted.warnings) {
-        fmt::print(stderr, "drude: warning: {}\n", warning);
-    }
+    print_warnings(converted.warnings);
     if (common.json) {
         nlohmann::ordered_json document = {{"files", converted.files},
                                            {"warnings", converted.warnings}};

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "cli/command_list.h"
 #include "cli/json_output.h"
+#include "cli/warnings.h"
 #include "device/instruments/registry.h"
 #include "device/usb/usb_listing.h"
 
@@ -90,8 +91,8 @@ void print_text(const UsbListing& listing, bool all) {
         "virtual:Au-Johnson (drude materials lists the sets)\n");
     for (const UsbDevice& device : listing.devices) {
         if (device.family.name.empty() || device.problem.empty()) continue;
-        fmt::print(stderr, "drude: warning: {:04x}:{:04x} on bus {:03}, device {:03}: {}\n",
-                   device.vendor, device.product, device.bus, device.address, device.problem);
+        print_warning(fmt::format("{:04x}:{:04x} on bus {:03}, device {:03}: {}", device.vendor,
+                                  device.product, device.bus, device.address, device.problem));
         if (device.permitted) continue;
         fmt::print(stderr,
                    "  To let the user at this machine open it, put this line into\n"

@@ -8,6 +8,7 @@
 #include "cli/command_list.h"
 #include "cli/films.h"
 #include "cli/json_output.h"
+#include "cli/warnings.h"
 #include "materials/mueller.h"
 #include "materials/surface.h"
 
@@ -173,9 +174,7 @@ Command eval_command() {
         options.option("--wavelength", values->wavelength_nm, "vacuum wavelength in nm");
         return [values, &options, &common] {
             const Evaluation evaluation = evaluate(*values, options);
-            for (const std::string& warning : evaluation.warnings) {
-                fmt::print(stderr, "drude: warning: {}\n", warning);
-            }
+            print_warnings(evaluation.warnings);
             common.json ? print_json(evaluation) : print_text(evaluation);
             return 0;
         };

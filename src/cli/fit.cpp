@@ -18,6 +18,7 @@
 #include "cli/fit_output.h"
 #include "cli/fit_paper.h"
 #include "cli/fit_statistics.h"
+#include "cli/warnings.h"
 #include "fitter/angle_choice.h"
 #include "fitter/common_error.h"
 #include "fitter/decisions.h"
@@ -184,10 +185,6 @@ void check_combination(const FitCommandOptions& options, const OptionSet& given)
     refuse_options(given, film_only, "belongs to --model film");
 }
 
-void warn(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) fmt::print(stderr, "drude: warning: {}\n", warning);
-}
-
 // n and k are known; the lobe is what is asked for.
 int run_lobe_fit(const FitCommandOptions& options, const CommonOptions& common) {
     const std::string text = read_file(options.lobe_scan);
@@ -199,7 +196,7 @@ int run_lobe_fit(const FitCommandOptions& options, const CommonOptions& common) 
     const LobeFitResult lobes = fit_lobes(parse_lobe_scan(text, options.lobe_scan), material);
     if (!options.name.empty()) material.name = options.name;
     material.provenance = provenance_of(options.lobe_scan, text, common);
-    warn(lobes.warnings);
+    print_warnings(lobes.warnings);
     if (common.json) {
         print_lobe_json(lobes, material, options.output);
     } else {
@@ -266,11 +263,11 @@ int run_fit(const FitCommandOptions& options, const OptionSet& given, const Comm
                                         provenance_of(options.measurement, text, common));
     report.name = material.name;
     report.provenance = material.provenance;
-    warn(report.fit.warnings);
+    print_warnings(report.fit.warnings);
     std::optional<LobeFitResult> lobes;
     if (!options.lobe_scan.empty()) {
         lobes = fit_lobes(read_lobe_scan(options.lobe_scan), material);
-        warn(lobes->warnings);
+        print_warnings(lobes->warnings);
     }
     write_fit_figures(options.statistics, report);
     if (!report.common_errors.empty()) {

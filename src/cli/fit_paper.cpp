@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "base/numbers.h"
 #include "cli/json_output.h"
+#include "cli/warnings.h"
 #include "fitter/import.h"
 #include "fitter/like_the_paper.h"
 #include "fitter/named_constants.h"
@@ -237,8 +238,7 @@ int run_like_the_paper(const PaperCommandOptions& options, const std::string& fi
         paper.literature = find_constants(options.literature, "--paper-start");
     }
     const PaperFit fit = fit_like_the_paper(measurement, paper);
-    for (const std::string& warning : fit.warnings)
-        fmt::print(stderr, "drude: warning: {}\n", warning);
+    print_warnings(fit.warnings);
     if (common.json) {
         ordered_json document = {{"model", "like-the-paper"}, {"measurement", file}};
         document.update(to_json(fit));

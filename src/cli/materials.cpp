@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/numbers.h"
 #include "cli/command_list.h"
+#include "cli/warnings.h"
 #include "materials/material.h"
 
 namespace drude {
@@ -176,7 +177,7 @@ int run_materials(const MaterialsOptions& options, const OptionSet& given, bool 
     const auto [first, last] =
         std::minmax_element(rows.wavelength_nm.begin(), rows.wavelength_nm.end());
     const std::string warning = set.range_warning(*first, *last);
-    if (!warning.empty()) fmt::print(stderr, "drude: warning: {}\n", warning);
+    if (!warning.empty()) print_warning(warning);
     if (json) {
         print_rows_json(
             rows, warning.empty() ? std::vector<std::string>() : std::vector<std::string>{warning});

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "cli/command_list.h"
 #include "cli/json_output.h"
+#include "cli/warnings.h"
 #include "image/image.h"
 #include "render/film_merge.h"
 #include "render/transport_choice.h"
@@ -28,9 +29,7 @@ int run(const Options& options, const CommonOptions& common) {
     const MergeResult result =
         merge_partials(options.parts, options.output, options.allow_mixed,
                        fmt::format("{}", fmt::join(common.command_line, " ")));
-    for (const std::string& warning : result.warnings) {
-        fmt::print(stderr, "drude: warning: {}\n", warning);
-    }
+    print_warnings(result.warnings);
     const FilmPart& part = result.part;
     const auto size = static_cast<uint64_t>(part.job.batch_size);
     if (common.json) {

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "cli/capture_output.h"
 #include "cli/command_list.h"
+#include "cli/warnings.h"
 
 namespace drude {
 
@@ -15,9 +16,8 @@ int run_reduce(const CaptureOutput& options, const CommonOptions& common) {
     CaptureOutput what = options;
     const Journal journal = read_journal(what.journal);
     if (journal.torn_bytes > 0) {
-        fmt::print(stderr,
-                   "drude: warning: {}: the last {} bytes are of a record that was cut short\n",
-                   what.journal, journal.torn_bytes);
+        print_warning(fmt::format("{}: the last {} bytes are of a record that was cut short",
+                                  what.journal, journal.torn_bytes));
     }
     what.resumed = !journal.resumes.empty();
     write_reduction(journal, what, common);

@@ -208,8 +208,7 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
     if (!std::filesystem::exists(options.folder + "/manifest.json")) {
         user_error(
             "{}: found no manifest.json there, expected the folder of the references; run it in "
-            "the "
-            "checkout, or name the folder",
+            "the checkout, or name the folder",
             options.folder);
     }
     ReferenceManifest manifest = read_manifest(options.folder);

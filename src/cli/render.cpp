@@ -1,5 +1,6 @@
 // drude render: a scene to an EXR.
 #include "render/render.h"
+#include "cli/warnings.h"
 #include "image/image.h"
 
 #include <fmt/format.h>
@@ -113,9 +114,7 @@ void write_and_report(const Options& options, const RenderOptions& render_option
     RenderSummary& summary = film->summary;
     const std::vector<std::string> more = count_warnings(film->part.counts, summary.plugins);
     summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
-    for (const std::string& warning : summary.warnings) {
-        fmt::print(stderr, "drude: warning: {}\n", warning);
-    }
+    print_warnings(summary.warnings);
     const bool is_shard = render_options.shards > 1;
     const bool writes = is_shard ? !summary.interrupted : summary.batches > 0;
     // Of a run that was killed while it wrote this very picture.
@@ -232,9 +231,7 @@ int run(const Options& options, const OptionSet& given, const CommonOptions& com
                        : "");
     }
     if (options.dry_run) {
-        for (const std::string& warning : scene.warnings) {
-            fmt::print(stderr, "drude: warning: {}\n", warning);
-        }
+        print_warnings(scene.warnings);
         // Pictures that cannot be read are found here, and not after an hour.
         const NumberTextures textures(scene);
         return describe(scene, options, given, common);

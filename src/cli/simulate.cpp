@@ -7,6 +7,7 @@
 #include "cli/command_list.h"
 #include "cli/films.h"
 #include "cli/json_output.h"
+#include "cli/warnings.h"
 #include "device/virtual/ellipsometer_simulation.h"
 #include "materials/surface.h"
 
@@ -56,7 +57,7 @@ int run_simulate(const SimulateOptions& options, const CommonOptions& common) {
     const std::vector<double> wavelengths = measurement.wavelengths();
     const std::vector<std::string> warnings =
         range_warnings(material, wavelengths.front(), wavelengths.back());
-    for (const std::string& warning : warnings) fmt::print(stderr, "drude: warning: {}\n", warning);
+    print_warnings(warnings);
     if (options.output.empty()) {
         fmt::print("{}", format_measurement(measurement));
         return 0;
